@@ -1,0 +1,56 @@
+# On a machine with Python >= 3.11, pip and make: `make ride` and `make test` do all the set-up.
+# Another Python: make PYTHON=python3.12 test
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP_INSTALL := install --quiet --disable-pip-version-check --constraint constraints.txt
+
+.PHONY: help ride test lint format bench clean
+.DEFAULT_GOAL := help
+
+help: ## List what there is to make
+	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1 	/'
+
+ride: $(VENV)/test.stamp ## Derive the paper's coach, run it over 1 km at 145 and 200 km/h, rate it
+	$(BIN)/python -m railride ride --plots ride-plots
+
+test: $(VENV)/test.stamp ## Run the tests and the examples in the documentation
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/dev.stamp ## Check style, format and types
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+format: $(VENV)/dev.stamp ## Mend what style and format checks can mend
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json
+	$(BIN)/python benchmarks/run.py
+
+clean: ## Remove the environment, caches and outputs
+	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis ride-plots build dist
+
+# The environment is made without pip and filled by the pip at hand: some systems ship Python without
+# ensurepip. The build tools are pinned as well, and so the build is not isolated from them.
+$(VENV)/python.stamp: constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "railride needs Python 3.11 or newer, and $(PYTHON) is" \
+	    "$$($(PYTHON) --version 2>&1). Name another: make PYTHON=python3.12 $(MAKECMDGOALS)" >&2; \
+	  exit 1; }
+	@$(PYTHON) -m pip --version >/dev/null 2>&1 || { \
+	  echo "railride is set up with pip, and $(PYTHON) has none: install it (python3-pip)" >&2; \
+	  exit 1; }
+	$(PYTHON) -m venv --clear --without-pip $(VENV)
+	$(PYTHON) -m pip --python $(BIN)/python $(PIP_INSTALL) hatchling editables
+	@touch $@
+
+$(VENV)/test.stamp: $(VENV)/python.stamp pyproject.toml
+	$(PYTHON) -m pip --python $(BIN)/python $(PIP_INSTALL) --no-build-isolation --editable '.[test]'
+	@touch $@
+
+$(VENV)/dev.stamp: $(VENV)/test.stamp
+	$(PYTHON) -m pip --python $(BIN)/python $(PIP_INSTALL) --no-build-isolation --editable '.[dev]'
+	@touch $@

@@ -1,0 +1,148 @@
+"""The comparisons: what each one runs, and what it is meant to reach.
+
+Every case returns one dictionary: `name`, `railride_s` and `peer_s` (medians, s), `ratio` (railride
+over peer), what the two sides were, and `targets`, each a quantity with its value, its bound and
+whether it is met.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from measure import interleaved, median, run, worker
+
+Case = Callable[[Callable[[], None]], dict[str, Any]]
+DERIVE = ("-m", "railride.derive", "--segments")
+
+
+def ride(step: Callable[[], None]) -> dict[str, Any]:
+    """Time simulation of 1 km at 1 kHz, N = 4, both sides alternating in one process."""
+    found = worker("ride")
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "ride",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="railride.response.simulate, wall time",
+        peer="control.forced_response on the same matrices and input, wall time",
+        samples=found["samples"],
+        states=found["states"],
+        inputs=found["inputs"],
+        targets=[
+            at_least("times faster", peer / own, 15),
+            at_most("largest difference / largest value", found["difference"], 1e-9),
+        ],
+    )
+
+
+def derive_linearise(step: Callable[[], None]) -> dict[str, Any]:
+    """Energies to linear matrices at N = 8, each run in a fresh process, imports not counted.
+
+    The peer takes about a minute, so it is run twice only.
+    """
+    sides = (lambda: worker("derive-railride"), lambda: worker("derive-sympy"))
+    own_runs, peer_runs = interleaved(sides, DERIVE_ROUNDS, step)
+    own = median([r["seconds"] for r in own_runs])
+    peer = median([r["seconds"] for r in peer_runs])
+    difference = max(r["difference"] for r in peer_runs)
+    return entry(
+        "derive-linearise",
+        own,
+        peer,
+        rounds=DERIVE_ROUNDS,
+        railride="derive_vehicle(cati2024, segments=8).linear from scratch, wall time",
+        peer="sympy LagrangesMethod, form_lagranges_equations, linearize; same energies, written "
+        "out, without the rates of the inputs, which it refuses; wall time",
+        targets=[
+            at_least("times faster", peer / own, 100),
+            at_most("largest difference / largest value, M C K K_w", difference, 1e-9),
+        ],
+    )
+
+
+def derive_process(step: Callable[[], None]) -> dict[str, Any]:
+    """CPU of the whole process ``python -m railride.derive --segments 4`` against a bare sympy."""
+    sides = (lambda: run(*DERIVE, "4").cpu, lambda: run("-c", "import sympy").cpu)
+    # Once unmeasured: the byte code is written, the files are in memory.
+    interleaved(sides, 1, lambda: None)
+    own, peer = (median(times) for times in interleaved(sides, PROCESS_ROUNDS, step))
+    return entry(
+        "derive-process",
+        own,
+        peer,
+        rounds=PROCESS_ROUNDS,
+        railride="python -m railride.derive --segments 4, CPU of the whole process",
+        peer='python -c "import sympy", CPU of the whole process',
+        targets=[at_most("ratio", own / peer, 3)],
+    )
+
+
+def derive_growth(step: Callable[[], None]) -> dict[str, Any]:
+    """How the CPU of ``python -m railride.derive --segments N`` grows: N = 64 over N = 16.
+
+    Both less the CPU of N = 1, the start of the program. The exponent is that of N^x between them.
+    """
+    segments = (1, 16, 32, 64)
+    sides = [partial(run, *DERIVE, str(n)) for n in segments]
+    sides[0]()
+    runs = dict(zip(segments, interleaved(sides, GROWTH_ROUNDS, step), strict=True))
+    cpu = {n: median([r.cpu for r in runs[n]]) for n in segments}
+    peak = max(r.peak for r in runs[64]) / 1e6
+    own, peer = cpu[64] - cpu[1], cpu[16] - cpu[1]
+    # No growth to speak of is an exponent of nothing, not of a logarithm of noise.
+    exponent = math.log(own / peer) / math.log(64 / 16) if own > 0 and peer > 0 else math.nan
+    return entry(
+        "derive-growth",
+        own,
+        peer,
+        rounds=GROWTH_ROUNDS,
+        railride="python -m railride.derive --segments 64, CPU less that of --segments 1",
+        peer="the same program with --segments 16, CPU less that of --segments 1",
+        cpu_s={str(n): cpu[n] for n in segments},
+        peak_memory_mb=peak,
+        targets=[
+            at_most("exponent from N = 16 to 64", exponent, 1.6),
+            at_most("peak memory at N = 64, MB", peak, 500),
+        ],
+    )
+
+
+DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
+
+CASES: dict[str, tuple[Case, int]] = {
+    "ride": (ride, 1),
+    "derive-linearise": (derive_linearise, DERIVE_ROUNDS),
+    "derive-process": (derive_process, PROCESS_ROUNDS),
+    "derive-growth": (derive_growth, GROWTH_ROUNDS),
+}
+"""Name to the case and the number of its steps."""
+
+
+def entry(
+    name: str, own_s: float, peer_s: float, /, *, targets: list[dict[str, Any]], **more: Any
+) -> dict[str, Any]:
+    """One object of results.json."""
+    return {
+        "name": name,
+        "railride_s": own_s,
+        "peer_s": peer_s,
+        "ratio": own_s / peer_s,
+        "met": all(target["met"] for target in targets),
+        "targets": targets,
+        **more,
+    }
+
+
+def at_least(quantity: str, value: float, bound: float) -> dict[str, Any]:
+    """A target that is met from `bound` upwards."""
+    return {"quantity": quantity, "value": value, "at_least": bound, "met": value >= bound}
+
+
+def at_most(quantity: str, value: float, bound: float) -> dict[str, Any]:
+    """A target that is met up to `bound`."""
+    return {"quantity": quantity, "value": value, "at_most": bound, "met": value <= bound}

@@ -1,0 +1,174 @@
+"""What is timed inside a process of its own: ``python workers.py NAME`` prints JSON.
+
+Imports are not part of these times. The caller (see ``measure.py``) sets the BLAS to one thread
+before this process starts, and so before numpy is imported.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+SEGMENTS_RIDE = 4
+SEGMENTS_DERIVE = 8
+SPEED = 145 / 3.6
+"""m/s, the paper's slower run."""
+RATE = 1000.0
+"""Samples per second."""
+LENGTH = 1000.0
+"""m of track."""
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Seconds of wall time, and the result."""
+    start = time.perf_counter()
+    result = work()
+    return time.perf_counter() - start, result
+
+
+def ride(rounds: int = 15) -> dict[str, Any]:
+    """`railride.response.simulate` and `control.forced_response`, same matrices, same input."""
+    import control
+    import numpy as np
+
+    from railride.response import simulate
+
+    A, B, C, D, delays = vehicle_state_space()
+    samples = round(LENGTH / SPEED * RATE) + 1
+    t = np.arange(samples) / RATE
+    u = elevations_and_rates(t, delays)
+    system = control.ss(A, B, C, D)
+    own_times, peer_times, largest = [], [], 0.0
+    for _ in range(rounds):
+        own_time, own = timed(lambda: simulate(A, B, C, D, u, 1 / RATE).outputs)
+        peer_time, peer = timed(
+            lambda: control.forced_response(system, t, u, squeeze=False).outputs
+        )
+        own_times.append(own_time)
+        peer_times.append(peer_time)
+        largest = max(largest, float(np.abs(own - peer).max() / np.abs(peer).max()))
+    return {
+        "own": own_times,
+        "peer": peer_times,
+        "difference": largest,
+        "samples": samples,
+        "states": len(A),
+        "inputs": len(u),
+    }
+
+
+def vehicle_state_space() -> tuple[Any, Any, Any, Any, Any]:
+    """A, B, C, D of the paper's coach, and how long after the first each wheelset arrives.
+
+    Inputs w and w' of the four wheelsets, output the floor's acceleration over the middle.
+    """
+    import numpy as np
+
+    from railride.parameters import load_vehicle
+    from railride.statespace import system_arrays
+    from railride.vehicle import derive_vehicle
+
+    vehicle = load_vehicle("cati2024")
+    s = system_arrays(derive_vehicle(vehicle, segments=SEGMENTS_RIDE))
+    places = np.array(vehicle.wheelset_positions)
+    track = slice(0, 2 * len(places))  # the actuators' forces follow, and stay zero
+    return s.A, s.B[:, track], s.C, s.D[:, track], (places.max() - places) / SPEED
+
+
+def elevations_and_rates(t: Any, delays: Any, waves: int = 300) -> Any:
+    """A track of cosines, 2 to 80 m long and 1/1000 of that high, under every wheelset: w, w'."""
+    import numpy as np
+
+    rng = np.random.default_rng(2024)
+    length = np.geomspace(2.0, 80.0, waves)
+    omega = 2 * np.pi * SPEED / length
+    height, phase = length / 1000 / np.sqrt(waves), rng.uniform(0, 2 * np.pi, waves)
+    w, rate = np.zeros((2, len(delays), len(t)))
+    for i, delay in enumerate(delays):
+        for amplitude, turn, start in zip(height, omega, phase, strict=True):
+            angle = turn * (t - delay) + start
+            w[i] += amplitude * np.cos(angle)
+            rate[i] -= amplitude * turn * np.sin(angle)
+    return np.vstack([w, rate])
+
+
+def derive_railride() -> dict[str, Any]:
+    """From the parameters of the vehicle to its linear matrices in symbols."""
+    from railride.parameters import load_vehicle
+    from railride.vehicle import derive_vehicle
+
+    vehicle = load_vehicle("cati2024")
+    seconds, _ = timed(lambda: derive_vehicle(vehicle, segments=SEGMENTS_DERIVE).linear)
+    return {"seconds": seconds}
+
+
+def derive_sympy() -> dict[str, Any]:
+    """sympy's LagrangesMethod with linearize on the same energies; the matrices compared after.
+
+    It refuses rates of inputs, so the dissipation function is that of a track at rest (w' = 0),
+    and C_w is not among the matrices it gives.
+    """
+    from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame, dynamicsymbols
+
+    from railride.parameters import load_vehicle
+    from railride.vehicle import derive_vehicle
+
+    model = derive_vehicle(load_vehicle("cati2024"), segments=SEGMENTS_DERIVE)
+    system = model.lagrangian.written_out
+    function = {s: dynamicsymbols(s.name) for s in (*system.coordinates, *system.inputs)}
+    table: dict[Any, Any] = dict(function)
+    for s, of_time in function.items():
+        table[s.dot] = of_time.diff() if s in system.coordinates else 0
+    q = [function[s] for s in system.coordinates]
+    # The energies are prepared outside the time: the peer starts from them, written for it.
+    kinetic, potential = system.kinetic.xreplace(table), system.potential.xreplace(table)
+    frame = ReferenceFrame("N")
+    loads = []
+    for s in system.coordinates:
+        point = Point(f"P_{s.name}")
+        point.set_vel(frame, table[s.dot] * frame.x)
+        loads.append((point, -system.dissipation.diff(s.dot).xreplace(table) * frame.x))
+
+    def work() -> Any:
+        method = LagrangesMethod(kinetic - potential, q, forcelist=loads, frame=frame)
+        method.form_lagranges_equations()
+        rest = {x: 0 for s in q for x in (s, s.diff(), s.diff().diff())}
+        return method.linearize(q_ind=q, qd_ind=[x.diff() for x in q], op_point=rest)
+
+    seconds, linear = timed(work)
+    return {"seconds": seconds, "difference": _largest_difference(model, linear)}
+
+
+def _largest_difference(model: Any, linear: Any) -> float:
+    """Between M, C, K, K_w of the two, as numbers, as a fraction of each matrix's largest."""
+    import numpy as np
+    import sympy as sp
+
+    values = {name: float(value) for name, value in model.values().items()}
+    mass, state, inputs, order = linear
+
+    def number(matrix: Any) -> Any:
+        by_name = {s: values[s.name] for s in matrix.free_symbols if s.name in values}
+        at_rest = dict.fromkeys(matrix.atoms(sp.core.function.AppliedUndef), 0)
+        return np.array(matrix.xreplace(by_name).xreplace(at_rest).tolist(), dtype=float)
+
+    m, n = model.matrices(), len(model.lagrangian.coordinates)
+    names = [s.func.__name__ for s in order]
+    columns = [names.index(s.name) for s in model.lagrangian.inputs]
+    A = number(state)[n:]
+    pairs = [
+        (number(mass)[n:, n:], m.M),
+        (-A[:, :n], m.K),
+        (-A[:, n:], m.C),
+        (number(inputs)[n:][:, columns], m.K_w),
+    ]
+    return max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs)
+
+
+WORKERS = {"ride": ride, "derive-railride": derive_railride, "derive-sympy": derive_sympy}
+
+if __name__ == "__main__":
+    json.dump(WORKERS[sys.argv[1]](), sys.stdout)

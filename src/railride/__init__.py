@@ -1,0 +1,54 @@
+"""railride: vertical dynamics and ride comfort of railway vehicles, from symbols to numbers.
+
+    >>> import railride as rr
+    >>> model = rr.derive_vehicle(rr.load_vehicle("cati2024"), segments=2)
+    >>> round(float(model.bending_frequencies()[0]), 6)
+    9.6
+
+Everything below is loaded when it is first used: ``import railride`` itself costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+__version__ = "0.1.0"
+
+KMH = 1 / 3.6
+"""One kilometre per hour in m/s: ``speed=145 * KMH``."""
+
+_WHERE = {
+    "parameters": ("CarBody", "Bogie", "Vehicle", "load_vehicle", "write_vehicle",
+                   "shipped_vehicles"),
+    "lagrange": ("Coordinate", "Input", "Force", "Lagrangian", "rate"),
+    "linear": ("LinearModel", "linearise", "linearise_equations"),
+    "halfbody": ("half_body",),
+    "vehicle": ("VehicleModel", "Output", "derive_vehicle"),
+    "modal": ("Mode", "modes"),
+    "statespace": ("state_space",),
+    "frequency": ("track_response",),
+    "spectra": ("Spectrum", "spectrum", "spectrum_names"),
+    "track": ("Track", "synthesise"),
+    "trackfile": ("read_track", "write_track"),
+    "response": ("simulate",),
+    "stochastic": ("stochastic_ride",),
+    "weightings": ("Weighting", "weighting", "weighting_names", "apply_weighting"),
+    "comfort": ("indices",),
+    "rides": ("RideResult", "ride"),
+    "plots": ("plot_acceleration", "plot_track", "plot_modes", "plot_ride"),
+    "errors": ("InputError",),
+}  # fmt: skip
+_MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}
+
+__all__ = ["KMH", "__version__", *sorted(_MODULE_OF)]  # noqa: PLE0604
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

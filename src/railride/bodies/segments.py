@@ -1,0 +1,262 @@
+r"""The car body as N equal rigid segments joined by hinges with torsional springs and dampers.
+
+The coordinates are the heights z_0 … z_N of the nodes: front end, hinges, rear end. Segment i lies
+between the nodes i-1 and i, so that its pitch and the height of its middle are
+
+.. math:: \sin\theta_i = \frac{z_{i-1} - z_i}{\ell}, \qquad z = \frac{z_{i-1} + z_i}{2},
+          \qquad \ell = \frac{L}{N} .
+
+The body's middle is held in x, and x_i, the place of the segment's middle, shortens by cos θ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import floor
+
+import sympy as sp
+from sympy import Rational, asin, cos, sin
+
+from railride.bodies.base import BodyModel, Parameter
+from railride.bodies.rigid import I_c, e_c, m_c
+from railride.errors import InputError
+from railride.lagrange import Coordinate, Lagrangian
+
+L, k_theta, EI = sp.symbols("L k_theta EI", positive=True)
+c_theta, f_bending, zeta_bending, J_s = sp.symbols("c_theta f_bending zeta_bending J_s", real=True)
+mu_0, mu_1, mu_2 = sp.symbols("mu_0 mu_1 mu_2", real=True)
+
+ROD_TOLERANCE = 0.05  # of I_c: within it the segments are equal rods
+
+
+def z(i: int) -> Coordinate:
+    """Height of node i."""
+    return Coordinate(f"z_{i}")
+
+
+def theta(i: int) -> Coordinate:
+    """Pitch of segment i."""
+    return Coordinate(f"theta_{i}")
+
+
+def x(i: int) -> Coordinate:
+    """Place of the middle of segment i along the track."""
+    return Coordinate(f"x_{i}")
+
+
+@dataclass(frozen=True)
+class SegmentedBody(BodyModel):
+    """A body of ``number`` ≥ 2 segments.
+
+    Raises
+    ------
+    InputError : a body without a bending frequency or stiffness; a mass and inertia that the
+        chosen distribution cannot hold (``body.inertia``, see :meth:`inertia`).
+    """
+
+    number: int
+
+    kind = "segments"
+
+    def __post_init__(self) -> None:
+        if not self.stiffness_given:
+            raise InputError(
+                f"segments: found {self.number} segments of a body whose bending is not known; "
+                "expected a bending frequency or a joint stiffness (give one of them, or take "
+                "one segment: the rigid body)"
+            )
+        if self.inertia == "graded":
+            self._check_graded()
+        if self.inertia == "segments":
+            self._check_own_inertia()
+
+    @property
+    def segments(self) -> int:
+        """N."""
+        return self.number
+
+    @property
+    def stiffness_given(self) -> str:
+        """What the joint stiffness comes from: 'frequency', 'joint', 'EI' or nothing."""
+        body = self.body
+        given = {"frequency": body.bending_frequency, "joint": body.joint_stiffness}
+        given["EI"] = body.bending_stiffness
+        return next((name for name, value in given.items() if value is not None), "")
+
+    @property
+    def inertia(self) -> str:
+        """How mass and inertia are distributed: 'rods', 'graded' or 'segments'.
+
+        ``rods``: equal slender rods; chosen where the pitch inertia of a uniform body is within
+        5 % of I_c. ``graded``: mass per length μ(x) = μ_0 + μ_1 x + μ_2 x², so that m_c, the
+        mass centre and I_c all hold. ``segments``: equal masses, each segment's own pitch inertia
+        J_s such that the whole has I_c.
+        """
+        body = self.body
+        if body.inertia != "auto":
+            return body.inertia
+        uniform = body.mass * body.length**2 / 12
+        is_rod = abs(uniform - body.pitch_inertia) <= ROD_TOLERANCE * body.pitch_inertia
+        return "rods" if is_rod and not body.mass_centre else "graded"
+
+    @cached_property
+    def energies(self) -> Lagrangian:
+        """The free chain of segments."""
+        N, ell = self.number, L / self.number
+        segments, joints = range(1, N + 1), range(1, N)
+        kinematics = {theta(i): asin((z(i - 1) - z(i)) / ell) for i in segments}
+        kinematics |= self._places(ell)
+        T = sp.Add(*(self._kinetic(i, ell) for i in segments))
+        V = sp.Add(*(k_theta * (theta(i) - theta(i + 1)) ** 2 / 2 for i in joints))
+        D = sp.Add(*(c_theta * (theta(i).dot - theta(i + 1).dot) ** 2 / 2 for i in joints))
+        return Lagrangian([z(i) for i in range(N + 1)], T, V, D, kinematics=kinematics)
+
+    def _places(self, ell: sp.Expr) -> dict[Coordinate, sp.Expr]:
+        """x_i outwards from the body's middle, which is a hinge or the middle of a segment."""
+        N = self.number
+        front, rear = N // 2, (N + 1) // 2 + 1  # the segments next to the middle
+        places: dict[Coordinate, sp.Expr] = {x(rear - 1): sp.S.Zero} if N % 2 else {}
+        for i in range(front, 0, -1):
+            inner = x(i + 1) + ell / 2 * cos(theta(i + 1)) if i < front or N % 2 else 0
+            places[x(i)] = inner + ell / 2 * cos(theta(i))
+        for i in range(rear, N + 1):
+            inner = x(i - 1) - ell / 2 * cos(theta(i - 1)) if i > rear or N % 2 else 0
+            places[x(i)] = inner - ell / 2 * cos(theta(i))
+        return places
+
+    def _kinetic(self, i: int, ell: sp.Expr) -> sp.Expr:
+        r"""T_i = ½ m (ẋ² + ż²) + S θ̇ (ż cos θ - ẋ sin θ) + ½ J θ̇² about the segment's middle."""
+        m, S, J = self._moments(i, ell)
+        v_x, v_z, omega = x(i).dot, (z(i - 1).dot + z(i).dot) / 2, theta(i).dot
+        T = m * (v_x**2 + v_z**2) / 2 + J * omega**2 / 2
+        return T + S * omega * (v_z * cos(theta(i)) - v_x * sin(theta(i))) if S != 0 else T
+
+    def _moments(self, i: int, ell: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+        """Mass, first and second moment ∫ μ uⁿ du of segment i about its middle."""
+        m = m_c / self.number
+        if self.inertia == "rods":
+            return m, sp.S.Zero, m * ell**2 / 12
+        if self.inertia == "segments":
+            return m, sp.S.Zero, J_s
+        middle = Rational(self.number + 1 - 2 * i, 2) * ell
+        at_middle = mu_0 + mu_1 * middle + mu_2 * middle**2  # μ(u) = this + slope u + μ_2 u²
+        slope = mu_1 + 2 * mu_2 * middle
+        return (
+            at_middle * ell + mu_2 * ell**3 / 12,
+            slope * ell**3 / 12,
+            at_middle * ell**3 / 12 + mu_2 * ell**5 / 80,
+        )
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """m_c, L, what the inertia and the joints are made from."""
+        body = self.body
+        found = [
+            Parameter(m_c, "car-body mass", "kg", body.mass),
+            Parameter(L, "car-body length", "m", body.length),
+        ]
+        if self.inertia != "rods":
+            found.append(Parameter(I_c, "car-body pitch inertia", "kg m^2", body.pitch_inertia))
+        if self.inertia == "graded":
+            found.append(Parameter(e_c, "mass centre forward of the middle", "m", body.mass_centre))
+        if body.bending_frequency is not None:
+            found.append(Parameter(f_bending, "free-free first bending frequency", "Hz",
+                                   body.bending_frequency))  # fmt: skip
+        if body.joint_stiffness is not None:
+            found.append(Parameter(k_theta, "joint stiffness", "N m/rad", body.joint_stiffness))
+        if body.bending_stiffness is not None:
+            found.append(Parameter(EI, "bending stiffness", "N m^2", body.bending_stiffness))
+        if body.joint_damping is not None:
+            found.append(Parameter(c_theta, "joint damping", "N m s/rad", body.joint_damping))
+        else:
+            found.append(Parameter(zeta_bending, "structural damping ratio of the first bending mode",
+                                   "", body.bending_damping))  # fmt: skip
+        return tuple(found)
+
+    @property
+    def definitions(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """μ_0, μ_1, μ_2 or J_s; k_θ = EI/ℓ. Calibrated joints are the vehicle's to evaluate."""
+        defined: dict[sp.Symbol, sp.Expr] = {}
+        if self.inertia == "graded":
+            excess = I_c + m_c * e_c**2 - m_c * L**2 / 12
+            defined[mu_2] = 180 * excess / L**5
+            defined[mu_1] = 12 * m_c * e_c / L**3
+            defined[mu_0] = m_c / L - mu_2 * L**2 / 12
+        if self.inertia == "segments":
+            N = self.number
+            defined[J_s] = I_c / N - m_c * L**2 * Rational(N**2 - 1, 12 * N**3)
+        if self.stiffness_given == "EI":
+            defined[k_theta] = EI * self.number / L
+        return defined
+
+    @property
+    def lift(self) -> Mapping[Coordinate, int]:
+        """A uniform lift raises every node alike."""
+        return {z(i): 1 for i in range(self.number + 1)}
+
+    def segment_at(self, at: float) -> int:
+        """The number of the segment on which the point lies; at a hinge the one ahead of it."""
+        self.check_point(at)
+        behind_front = (0.5 - at / self.body.length) * self.number
+        nearest = round(behind_front)
+        if abs(behind_front - nearest) < 1e-9:
+            return max(nearest, 1)
+        return min(max(floor(behind_front) + 1, 1), self.number)
+
+    def height(self, x: sp.Expr, at: float) -> sp.Expr:
+        """z = (1 - ξ) z_{i-1} + ξ z_i along the segment, ξ from its front node."""
+        i = self.segment_at(at)
+        xi = Rational(self.number, 2) - (i - 1) - self.number * x / L
+        return (1 - xi) * z(i - 1) + xi * z(i)
+
+    def floor(self, at: float, reading: str) -> sp.Expr:
+        r"""The polygon itself, or the smooth floor that has the polygon's mean over each segment.
+
+        .. math:: z_{floor} = z_{polygon} + \kappa \ell^2 (\xi^2/2 - 1/24), \quad
+                  -\tfrac12 \le \xi \le \tfrac12
+
+        with κ ℓ = θ_ahead - θ_behind at a hinge, linear between hinges, zero at the free ends.
+        """
+        self.check_reading(reading)
+        polygon = self.height(sp.Float(at), at)
+        if reading == "polygon":
+            return polygon
+        i, N = self.segment_at(at), self.number
+        ell = L / N
+        xi = at / ell - Rational(N + 1 - 2 * i, 2)  # forward of the segment's middle
+        bend = [theta(j) - theta(j + 1) if 1 <= j < N else sp.S.Zero for j in (i - 1, i)]
+        half = Rational(1, 2)
+        kappa_ell = (half + xi) * bend[0] + (half - xi) * bend[1]
+        return polygon + kappa_ell * ell * (xi**2 / 2 - Rational(1, 24))
+
+    def _check_graded(self) -> None:
+        body = self.body
+        e, length = body.mass_centre, body.length
+        b = 180 * (body.pitch_inertia + body.mass * e**2 - body.mass * length**2 / 12) / length**5
+        a = body.mass / length - b * length**2 / 12
+        d = 12 * body.mass * e / length**3
+        places = [-length / 2, length / 2] + ([-d / (2 * b)] if b > 0 else [])
+        lowest = min(a + d * s + b * s**2 for s in places if abs(s) <= length / 2)
+        if lowest < 0:
+            raise InputError(
+                f"body.pitch_inertia: found {body.pitch_inertia:g} kg m^2 with the mass centre at "
+                f"{e:g} m, for which a graded mass per length falls to {lowest:.4g} kg/m; expected "
+                f"values nearer to a uniform body's {body.mass * length**2 / 12:.4g} kg m^2 (set "
+                'body.inertia to "rods" or "segments", or take one segment: the rigid body)'
+            )
+
+    def _check_own_inertia(self) -> None:
+        body, N = self.body, self.number
+        own = body.pitch_inertia / N - body.mass * body.length**2 * (N**2 - 1) / (12 * N**3)
+        if body.mass_centre:
+            raise InputError(
+                'body.inertia: found "segments", equal masses, with the mass centre at '
+                f'{body.mass_centre:g} m; expected it at the middle (use "graded")'
+            )
+        if own <= 0:
+            raise InputError(
+                f'body.inertia: found "segments", which needs {own:.4g} kg m^2 in each of {N} '
+                'segments; expected a positive pitch inertia (use "graded", or fewer segments)'
+            )

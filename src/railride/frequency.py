@@ -1,0 +1,83 @@
+r"""Frequency response of the vehicle to the track, every wheelset with its exact delay.
+
+.. math:: (K - \omega^2 M + i\omega C)\, q = (K_w + i\omega C_w)\, e(\omega)\, w, \qquad
+          e_j = e^{-i\omega l_j/V}
+
+w is the elevation under the leading wheelset, l_j the distance of wheelset j behind it. With the
+complex Schur form A = Q T Q* of x' = A x the system is triangular at every frequency, and is
+solved row by row for all frequencies together; no eigenvectors, so repeated and nearly repeated
+poles do no harm.
+
+Source: the equations of motion; A.J. Laub, IEEE Trans. Autom. Control 26 (1981) 407-408, with the
+Schur in place of the Hessenberg form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from railride.numeric import Array
+from railride.spectra import check_speed
+from railride.vehicle import Matrices, Output, VehicleModel
+
+Complex = NDArray[np.complex128]
+
+
+def track_response(
+    model: VehicleModel,
+    outputs: Sequence[Output],
+    speed: float,
+    frequency: ArrayLike,
+    **changes: ArrayLike,
+) -> Complex:
+    """Response of outputs to the elevation under the leading wheelset.
+
+    Parameters
+    ----------
+    outputs : the outputs y, see ``VehicleModel.outputs`` and ``VehicleModel.floor``.
+    speed : V in m/s, > 0. frequency : in Hz, shape (F,), > 0.
+
+    Returns
+    -------
+    array : shape (outputs, F), in the output's unit per metre.
+    """
+    check_speed(speed)
+    omega = 2 * np.pi * np.asarray(frequency, dtype=float)
+    m, Y = model.matrices(**changes), model.output_rows(outputs, **changes)
+    delays = wheelset_delays(model, speed)
+    e = np.exp(-1j * delays[:, np.newaxis] * omega)
+    s = 1j * omega
+    force = m.K_w @ e + s * (m.C_w @ e)
+    q = solve_at(m, omega, force)
+    motion = Y["d"] @ q + s * (Y["v"] @ q) + s**2 * (Y["a"] @ q)
+    return np.asarray(motion + Y["w"] @ e + s * (Y["dw"] @ e))
+
+
+def solve_at(m: Matrices, omega: Array, force: Complex) -> Complex:
+    """q of (K - ω² M + iω C) q = force at every ω: shapes (n, F) from (F,) and (n, F)."""
+    from scipy.linalg import schur
+
+    n = m.M.shape[-1]
+    inverse = np.linalg.inv(m.M)
+    scale = np.sqrt(np.abs(inverse @ m.K).max())  # states (scale q, q̇) of like size
+    A = np.zeros((2 * n, 2 * n))
+    A[:n, n:] = scale * np.eye(n)
+    A[n:, :n] = -inverse @ m.K / scale
+    A[n:, n:] = -inverse @ m.C
+    T, Q = schur(A, output="complex")
+    y = Q[n:].conj().T @ (inverse @ force)
+    s = 1j * omega
+    for i in range(2 * n - 1, -1, -1):
+        if i + 1 < 2 * n:
+            y[i] += T[i, i + 1 :] @ y[i + 1 :]
+        y[i] /= s - T[i, i]
+    return np.asarray(Q[:n] @ y / scale)
+
+
+def wheelset_delays(model: VehicleModel, speed: float) -> Array:
+    """l_j/V of every wheelset, s, from the leading one."""
+    places = np.array(model.vehicle.wheelset_positions)
+    return np.asarray((places[0] - places) / speed)

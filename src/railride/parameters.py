@@ -1,0 +1,220 @@
+"""Parameter files: a vehicle from TOML, with a unit on every value, and back.
+
+A file has the top-level keys ``name``, ``source`` and ``remarks``; a table ``[body]``; a table
+``[bogie]`` of what all bogies share; and one table ``[[bogies]]`` for each, from the front, with
+its ``position`` and whatever differs. The keys are the fields of :class:`CarBody` and
+:class:`Bogie`, the values ``"number unit"``. Any table may explain itself: ``note`` and ``source``
+are texts, ``notes`` a table of texts by key.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Sequence
+from dataclasses import MISSING, Field, fields
+from pathlib import Path
+from typing import Any
+
+from railride.errors import Fault, Faults, InputError
+from railride.files import data_path, write_text
+from railride.toml_tables import Table, read_toml, shown, toml_text
+from railride.vehicle_data import (
+    Bogie,
+    CarBody,
+    Vehicle,
+    check_arrangement,
+    check_body,
+    check_texts,
+    check_wheelsets,
+)
+
+__all__ = [
+    "Bogie",
+    "CarBody",
+    "Vehicle",
+    "load_vehicle",
+    "shipped_vehicles",
+    "to_toml",
+    "write_vehicle",
+]
+
+_SCHEMA = 1  # of the files, should a key ever change its meaning
+
+
+def shipped_vehicles() -> tuple[str, ...]:
+    """Names of the parameter sets that come with the program.
+
+    >>> shipped_vehicles()
+    ('cati2024', 'ice3', 'manchester', 'shinkansen_s300')
+    """
+    return tuple(sorted(path.stem for path in data_path("vehicles").glob("*.toml")))
+
+
+def load_vehicle(name_or_path: str | Path) -> Vehicle:
+    """Vehicle of a shipped parameter set, or of a TOML file.
+
+    name_or_path: a name of :func:`shipped_vehicles`, or the path of a file.
+
+    Raises InputError with all that is wrong with the file at once: keys that are missing, unknown
+    or misspelt, values without a unit or of another dimension, parts that do not fit together.
+    ``data/vehicles/cati2024.toml`` is an example to follow.
+
+    >>> load_vehicle("cati2024").bogies[0].primary_stiffness
+    5000000.0
+    """
+    text = str(name_or_path)
+    shipped = shipped_vehicles()
+    if text in shipped:
+        return _read_vehicle(data_path("vehicles", f"{text}.toml"))
+    if os.path.exists(text):  # noqa: PTH110 - unlike Path.exists, False for what is no path at all
+        return _read_vehicle(Path(text))
+    near = difflib.get_close_matches(text.removesuffix(".toml"), shipped, n=1)
+    fault = Fault(
+        f"vehicle {shown(text)}",
+        "neither a shipped vehicle nor a file",
+        f"one of {', '.join(shipped)}, or the path of a TOML file",
+        f"did you mean {near[0]}?" if near else "check the spelling and the folder",
+    )
+    raise InputError(str(fault))
+
+
+def _read_vehicle(path: Path) -> Vehicle:
+    """Vehicle of a parameter file: every fault in it is noted before any is raised."""
+    faults = Faults(str(path))
+    content = read_toml(path, faults)
+    faults.raise_if_any()
+    top = Table(content, "", faults)
+    schema = top.whole("schema")
+    if schema not in (None, _SCHEMA):
+        faults.add("schema", str(schema), f"{_SCHEMA}, the form that this version reads")
+    name, source, remarks = top.text("name"), top.text("source"), top.texts("remarks")
+    check_texts(path.stem if name is None else name, source or "", remarks, faults)
+    body = _read_body(top, faults)
+    bogies = _read_bogies(top, faults)
+    top.finish()
+    check_arrangement(body, bogies, faults)
+    faults.raise_if_any()
+    return Vehicle(
+        name=path.stem if name is None else name,
+        body=CarBody(**body),
+        bogies=tuple(Bogie(**bogie) for bogie in bogies),
+        source=source or "",
+        remarks=remarks,
+    )
+
+
+def _read_body(top: Table, faults: Faults) -> dict[str, Any]:
+    """Values of ``[body]``; what is missing or faulty is left out and noted."""
+    table = top.table("body")
+    if table is None:
+        faults.add("[body]", "no such table", "the car body's mass, pitch_inertia, length, …")
+        return {}
+    values = _values(table, fields(CarBody))
+    inertia = table.text("inertia")
+    if inertia is not None:
+        values["inertia"] = inertia
+    table.finish()
+    for item in fields(CarBody):
+        if item.default is MISSING and item.name not in table:
+            _note_missing(table.key(item.name), item, faults)
+    check_body(values, table.key(""), faults)
+    return values
+
+
+def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
+    """Values of each of ``[[bogies]]``, those of ``[bogie]`` where it has none of its own."""
+    all_of_them = fields(Bogie)
+    shared_fields = [item for item in all_of_them if item.name != "position"]
+    common = top.table("bogie")
+    shared: dict[str, Any] = {}
+    if common is not None:
+        shared = _values(common, shared_fields)
+        common.finish()
+        check_wheelsets(shared, "bogie.", faults)
+    bogies = []
+    tables = top.tables("bogies")
+    for table in tables:
+        own = _values(table, all_of_them)
+        table.finish()
+        check_wheelsets(own, table.key(""), faults)
+        bogies.append(shared | own)
+    for item in all_of_them:
+        if item.default is not MISSING or (common is not None and item.name in common):
+            continue
+        without = [table.key(item.name) for table in tables if item.name not in table]
+        if without and len(without) == len(tables) and item.name != "position":
+            without = [f"bogie.{item.name}"]  # once for all
+        for where in without:
+            _note_missing(where, item, faults)
+    return bogies
+
+
+def _values(table: Table, items: Sequence[Field[Any]]) -> dict[str, Any]:
+    """SI values of those fields that have a unit and stand in the table without fault."""
+    values: dict[str, Any] = {}
+    for item in items:
+        if "unit" not in item.metadata:
+            continue
+        read = table.quantities if item.name == "wheelsets" else table.quantity
+        value = read(item.name, item.metadata["unit"], item.metadata["sign"])
+        if value is not None:
+            values[item.name] = value
+    return values
+
+
+def _note_missing(where: str, item: Field[Any], faults: Faults) -> None:
+    unit = item.metadata["unit"]
+    form = f'["number {unit}", …]' if item.name == "wheelsets" else f'"number {unit}"'
+    faults.add(where, "nothing", f"{item.name} = {form}", "the key is missing")
+
+
+def to_toml(vehicle: Vehicle) -> str:
+    """Text of a parameter file that reads back as an equal vehicle, in SI units.
+
+    >>> print(to_toml(load_vehicle("cati2024")).split("[bogie]")[1].splitlines()[1])
+    mass = "3000.0 kg"
+    """
+    lines = [f"name = {toml_text(vehicle.name)}", f"source = {toml_text(vehicle.source)}"]
+    lines += ["remarks = [", *(f"    {toml_text(remark)}," for remark in vehicle.remarks), "]"]
+    lines += [f"schema = {_SCHEMA}", "", "[body]", *_lines(vehicle.body, fields(CarBody))]
+    first, *others = vehicle.bogies
+    shared = [
+        item
+        for item in fields(Bogie)
+        if item.name != "position"
+        and all(getattr(bogie, item.name) == getattr(first, item.name) for bogie in others)
+    ]
+    lines += ["", "[bogie]", *_lines(first, shared)]
+    own = [item for item in fields(Bogie) if item not in shared]
+    for bogie in vehicle.bogies:
+        lines += ["", "[[bogies]]", *_lines(bogie, own)]
+    return "\n".join(lines) + "\n"
+
+
+def _lines(record: CarBody | Bogie, items: Sequence[Field[Any]]) -> list[str]:
+    """``key = value`` for each field that does not have its default."""
+    lines = []
+    for item in items:
+        value = getattr(record, item.name)
+        if value == item.default:
+            continue
+        unit = item.metadata.get("unit")
+        if isinstance(value, str):
+            written = toml_text(value)
+        elif isinstance(value, tuple):
+            written = f"[{', '.join(toml_text(f'{number!r} {unit}') for number in value)}]"
+        else:
+            written = toml_text(f"{value!r} {unit}") if unit else repr(value)
+        lines.append(f"{item.name} = {written}")
+    return lines
+
+
+def write_vehicle(vehicle: Vehicle, path: str | Path) -> None:
+    """Write ``vehicle`` as a parameter file, whole or not at all.
+
+    path: the file to be written or replaced.
+
+    Raises InputError where it cannot be written.
+    """
+    write_text(path, to_toml(vehicle))
