@@ -31,12 +31,12 @@ class Faults:
     """Gathers the faults of one source, to be raised as one :class:`InputError`.
 
     >>> faults = Faults("coach.toml")
-    >>> faults.add("body.mass", "'-3 t'", "a positive mass", "write it as, say, \\"34000 kg\\"")
+    >>> faults.add("body.mass", "'-3 t'", "a mass above 0", "in kg or t")
     >>> faults.raise_if_any()
     Traceback (most recent call last):
     ...
-    railride.errors.InputError: coach.toml: body.mass: found '-3 t'; expected a positive mass \
-(write it as, say, "34000 kg")
+    railride.errors.InputError: coach.toml: body.mass: found '-3 t'; expected a mass above 0 \
+(in kg or t)
     """
 
     def __init__(self, source: str) -> None:

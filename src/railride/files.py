@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import tempfile
 from pathlib import Path
 
 from railride.errors import Faults
+
+_MOST_LINKS = 40  # in a row, as Linux has it: beyond it they lead round in a circle
 
 
 def data_path(*parts: str) -> Path:
@@ -34,35 +37,71 @@ def data_path(*parts: str) -> Path:
 
 
 def write_text(path: str | Path, text: str) -> None:
-    """Write a text file as a whole or not at all: beside its place first, then renamed.
+    """Write a text file as :func:`write_bytes` does, as UTF-8 with line feeds."""
+    write_bytes(path, text.encode("utf-8"))
 
-    path: the file to be written or replaced; its folder must exist.
-    text: what is to stand in it, written as UTF-8 with line feeds.
+
+def write_bytes(path: str | Path, content: bytes) -> None:
+    """Write a file as a whole or not at all: beside its place first, then renamed.
+
+    path: the file to be written or replaced; its folder must exist. The file behind a symbolic link
+        is replaced and the link stays; a device, a pipe or an open stream such as ``/dev/stdout``
+        has nothing to replace and is written to as it is.
+    content: what is to stand in it.
 
     Raises InputError where the file cannot be written (no such folder, a folder in its place, no
-    permission, a full disk); nothing half-written is left behind.
+    permission, a full disk); nothing half-written is left behind, after an interruption neither.
     """
-    target = Path(path)
     faults = Faults(repr(str(path)))
-    beside: str | None = None
     try:
+        target = _behind_links(Path(path))
         if target.is_dir():
             raise IsADirectoryError(0, "a folder of that name")
-        handle, beside = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        # mkstemp makes private files; an output has the permissions that any new file has.
-        Path(beside).chmod(_usual_permissions(target))
-        Path(beside).replace(target)
+        if _is_stream(target):
+            with target.open("ab") as stream:
+                stream.write(content)
+        else:
+            _replace(target, content)
     except (OSError, ValueError) as error:
-        if beside is not None:
-            with contextlib.suppress(OSError):
-                Path(beside).unlink()
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         faults.add(
             "output file", reason, "a file that can be written", "give another path or make room"
         )
     faults.raise_if_any()
+
+
+def _replace(target: Path, content: bytes) -> None:
+    """Write a new file beside ``target`` and give it that name once it is complete."""
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
+    beside = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        # mkstemp makes private files; an output has the permissions that any new file has.
+        beside.chmod(_usual_permissions(target))
+        beside.replace(target)
+    except BaseException:  # Ctrl-C too
+        with contextlib.suppress(OSError):
+            beside.unlink()
+        raise
+
+
+def _behind_links(target: Path) -> Path:
+    """Follow symbolic links, but not those by which the system names an open stream."""
+    for _ in range(_MOST_LINKS):
+        if _names_stream(target) or not target.is_symlink():
+            return target
+        target = target.parent / target.readlink()
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+
+
+def _names_stream(target: Path) -> bool:
+    return target.absolute().as_posix().startswith(("/dev/std", "/dev/fd/", "/proc/"))
+
+
+def _is_stream(target: Path) -> bool:
+    """Whether it is something else than a file of its own."""
+    return target.exists() and (_names_stream(target) or not target.is_file())
 
 
 def _usual_permissions(target: Path) -> int:

@@ -19,9 +19,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from railride.numeric import Array
+from railride.numeric import Array, Matrices
 from railride.spectra import check_speed
-from railride.vehicle import Matrices, Output, VehicleModel
+from railride.vehicle import Output, VehicleModel
 
 Complex = NDArray[np.complex128]
 

@@ -110,8 +110,8 @@ class Jets:
         if isinstance(u, sp.Add):
             return _sum(self.hessian(a).items() for a in u.args)
         terms = []
-        for a, f_a in self._partials(u, order=1).items():
-            terms.append([(pair, f_a * h) for pair, h in self.hessian(u.args[a[0]]).items()])
+        for (a,), f_a in self._partials(u, order=1).items():
+            terms.append([(pair, f_a * h) for pair, h in self.hessian(u.args[a]).items()])
         for (a, b), f_ab in self._partials(u, order=2).items():
             at_a, at_b = self.gradient(u.args[a]), self.gradient(u.args[b])
             terms.append([((s, t), f_ab * g * h) for s, g in at_a.items() for t, h in at_b.items()])
@@ -127,8 +127,10 @@ class Jets:
         for index in combinations_with_replacement(varying, order):
             at_point = self._partial(u, varying, index)
             if at_point.has(sp.zoo, sp.nan, sp.oo):
-                raise InputError(f"{u}: found no finite derivative at the operating point; "
-                                 "expected a smooth function (choose other coordinates)")  # fmt: skip
+                raise InputError(
+                    f"{u}: found no finite derivative at the operating point; expected a smooth "
+                    "function (choose other coordinates)"
+                )
             if at_point != 0:
                 table[index] = table[index[::-1]] = at_point
         return table

@@ -15,7 +15,7 @@ Source: H. Goldstein, Classical Mechanics, 2nd ed., Sections 1-4 and 1-5 (Eqs 1-
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
@@ -35,8 +35,14 @@ class Signal(sp.Symbol):
     (z_b1_dot, z_b1_dot_dot, '\\ddot{z_{b1}}')
     """
 
-    def __new__(cls, name: str) -> Self:
-        return super().__new__(cls, name, real=True)
+    def __new__(cls, name: str) -> Self:  # noqa: D102 - the class says it
+        made: Self = super().__new__(cls, name, real=True)
+        return made
+
+    @classmethod
+    def class_key(cls) -> Any:
+        """Sort among the symbols, so that k z is printed as k z and not as z k."""
+        return sp.Symbol.class_key()
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, Any]]:
         return (self.name,), {}
@@ -54,7 +60,7 @@ class Signal(sp.Symbol):
     @property
     def order(self) -> int:
         """How many times the signal is differentiated: 0 for q, 1 for q.dot."""
-        return self.name.count(DOT)
+        return str(self.name).count(DOT)
 
     @property
     def base(self) -> Self:
@@ -112,11 +118,13 @@ class Lagrangian:
     inputs : prescribed motions w, in the order of the columns of K_w and C_w.
     forces : prescribed forces f, in the order of the columns of B_f.
     virtual_work : pairs (F, r), a force and the displacement it does its virtual work on, both
-        scalars or both vectors: δW = F · δr. F may be non-conservative: any function of q, q̇, w, ẇ, f.
+        scalars or both vectors: δW = F · δr. F may be non-conservative: any function of q, q̇, w,
+        ẇ and f.
     kinematics : named functions of the coordinates, such as the angle of a segment or the
         deflection of a spring, in an order in which each uses only those before it. T, V and D
         may use the names and their rates, and so stay as short as on paper.
     equilibrium : the operating point, coordinate → value, zero where it says nothing.
+    outputs : named results, expressions in any of the signals, their rates and second rates.
 
     Raises
     ------
@@ -141,6 +149,7 @@ class Lagrangian:
     virtual_work: Sequence[tuple[Any, Any]] = ()
     kinematics: Mapping[Coordinate, sp.Expr] = field(default_factory=dict)
     equilibrium: Mapping[Coordinate, sp.Expr] = field(default_factory=dict)
+    outputs: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for name in ("coordinates", "inputs", "forces"):
@@ -156,12 +165,15 @@ class Lagrangian:
         for twice in sorted({s.name for s in declared if declared.count(s) > 1}):
             faults.add(twice, "the same symbol listed twice", "each signal once")
         known = set(declared)
-        parts = {"kinetic": self.kinetic, "potential": self.potential}
-        parts["dissipation"] = self.dissipation
+        # part → expression and the highest rate that may be in it
+        parts = {"kinetic": (self.kinetic, 1), "potential": (self.potential, 0)}
+        parts["dissipation"] = (self.dissipation, 1)
         for k, (force, displacement) in enumerate(self.virtual_work, start=1):
-            parts[f"virtual_work {k}"] = force + displacement
-        parts |= {f"kinematics of {name}": u for name, u in self.kinematics.items()}
-        for part, expression in parts.items():
+            parts[f"force {k}"], parts[f"displacement {k}"] = (force, 1), (displacement, 0)
+        parts |= {f"kinematics of {name}": (u, 0) for name, u in self.kinematics.items()}
+        parts |= {f"output {name}": (u, 2) for name, u in self.outputs.items()}
+        for part, (given, highest) in parts.items():
+            expression = sp.sympify(given)
             for s in signals(expression):
                 if s.base not in known:
                     faults.add(
@@ -170,8 +182,9 @@ class Lagrangian:
                         "only declared ones",
                         f"list it among the {type(s).__name__.lower()}s",
                     )
-            if part.startswith("kinematics") and any(s.order for s in signals(expression)):
-                faults.add(part, f"a rate in {expression}", "a function of coordinates and inputs")
+            if any(s.order > highest for s in signals(expression)):
+                rates = ("signals", "signals and their rates", "no third rates")[highest]
+                faults.add(part, f"too high a rate in {expression}", f"a function of {rates}")
             if "t" in (s.name for s in expression.free_symbols):
                 faults.add(
                     part,
@@ -184,15 +197,19 @@ class Lagrangian:
     @cached_property
     def written_out(self) -> Lagrangian:
         """The same system with every named kinematic function put in."""
-        table = _written_out(self.kinematics)
+        wanted = set[sp.Symbol]().union(
+            *(sp.sympify(u).free_symbols for u in self.outputs.values())
+        )
+        table = _written_out(self.kinematics, wanted)
         work = tuple((F.xreplace(table), r.xreplace(table)) for F, r in self.virtual_work)
         T, V, D = (u.xreplace(table) for u in (self.kinetic, self.potential, self.dissipation))
         return Lagrangian(
-            self.coordinates, T, V, D, self.inputs, self.forces, work, equilibrium=self.equilibrium
-        )
+            self.coordinates, T, V, D, self.inputs, self.forces, work, equilibrium=self.equilibrium,
+            outputs={name: sp.sympify(u).xreplace(table) for name, u in self.outputs.items()},
+        )  # fmt: skip
 
     def equations(self) -> sp.Matrix:
-        """The nonlinear equations of motion as a column: left-hand side minus Q, each equal to zero."""
+        """The nonlinear equations of motion as a column: left-hand side less Q, each zero."""
         system = self.written_out
         T, V, D = system.kinetic, system.potential, system.dissipation
         return sp.Matrix([
@@ -219,10 +236,17 @@ def _scalar_work(pairs: Sequence[tuple[Any, Any]]) -> list[tuple[sp.Expr, sp.Exp
     return scalar
 
 
-def _written_out(kinematics: Mapping[Coordinate, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-    """Each kinematic name and its first rate → an expression in coordinates and inputs alone."""
+def _written_out(
+    kinematics: Mapping[Coordinate, sp.Expr], wanted: Set[sp.Symbol]
+) -> dict[sp.Symbol, sp.Expr]:
+    """Each kinematic name and its rates → an expression in coordinates and inputs alone.
+
+    Second rates, long as they are, only where they are ``wanted``.
+    """
     table: dict[sp.Symbol, sp.Expr] = {}
     for name, definition in kinematics.items():
         table[name] = sp.sympify(definition).xreplace(table)
         table[name.dot] = rate(table[name])
+        if name.ddot in wanted:
+            table[name.ddot] = rate(table[name.dot])
     return table

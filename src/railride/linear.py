@@ -21,14 +21,14 @@ Source: L. Meirovitch, Fundamentals of Vibrations, McGraw-Hill 2001, Sections 6.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
-from functools import cached_property
+from dataclasses import dataclass, fields, replace
+from functools import cache, cached_property
 
 import sympy as sp
 
 from railride.errors import InputError
 from railride.jets import Jets
-from railride.lagrange import Coordinate, Force, Input, Lagrangian, Signal, signals
+from railride.lagrange import Coordinate, Force, Input, Lagrangian, Signal
 
 MATRICES = ("M", "C", "K", "K_w", "C_w", "B_f")
 
@@ -41,9 +41,9 @@ class LinearModel:
     that of ``inputs``; those of B_f in that of ``forces``.
     """
 
-    coordinates: tuple[Coordinate, ...]
-    inputs: tuple[Input, ...]
-    forces: tuple[Force, ...]
+    coordinates: Sequence[Coordinate]
+    inputs: Sequence[Input]
+    forces: Sequence[Force]
     M: sp.ImmutableSparseMatrix
     C: sp.ImmutableSparseMatrix
     K: sp.ImmutableSparseMatrix
@@ -63,7 +63,7 @@ class LinearModel:
         return tuple(sorted(found, key=lambda s: s.name))
 
     def map(self, f: Callable[[sp.Expr], sp.Expr]) -> LinearModel:
-        """The same model with ``f`` (say :func:`sympy.factor`) applied to every entry, each once."""
+        """The same model with ``f``, say :func:`sympy.factor`, applied to every entry."""
         done: dict[sp.Expr, sp.Expr] = {}
 
         def once(entry: sp.Expr) -> sp.Expr:
@@ -76,7 +76,7 @@ class LinearModel:
 
     def _repr_latex_(self) -> str:
         def column(symbols: Sequence[sp.Symbol]) -> str:
-            return sp.latex(sp.Matrix(symbols))
+            return str(sp.latex(sp.Matrix(symbols)))
 
         q, w = self.coordinates, self.inputs
         left = [(self.M, [s.ddot for s in q]), (self.C, [s.dot for s in q]), (self.K, q)]
@@ -106,7 +106,7 @@ def linearise(system: Lagrangian) -> LinearModel:
 
     def block(columns: Sequence[Signal], entry: Callable[[int, int], sp.Expr]) -> sp.Matrix:
         entries = {(i, j): entry(i, j) for i in range(len(q)) for j in range(len(columns))}
-        entries = {ij: value for ij, value in entries.items() if value != 0}
+        entries = {ij: _tidy(value) for ij, value in entries.items() if value != 0}
         return sp.ImmutableSparseMatrix(len(q), len(columns), entries)
 
     def of(H: Mapping[tuple[Signal, Signal], sp.Expr], a: Signal, b: Signal) -> sp.Expr:
@@ -152,21 +152,54 @@ def linearise_equations(system: Lagrangian) -> LinearModel:
     )  # fmt: skip
 
 
-def linear_output(system: Lagrangian, output: sp.Expr) -> dict[Signal, sp.Expr]:
-    """An output's coefficients ∂y/∂s at the operating point, for q, q̇, q̈, w, ẇ, ẅ and f.
+def output_rows(
+    system: Lagrangian, outputs: Mapping[str, sp.Expr] | None = None
+) -> dict[str, sp.ImmutableSparseMatrix]:
+    r"""Outputs about the operating point, y = Y_a q̈ + Y_v q̇ + Y_d q + Y_w w + Y_dw ẇ + Y_f f.
 
-    The output is counted from its value at the operating point, as the coordinates are.
+    They count from their values there, as the coordinates do.
+
+    Parameters
+    ----------
+    outputs : name → expression; default: the system's own.
+
+    Returns
+    -------
+    dict : "a", "v", "d" (outputs, coordinates), "w", "dw" (outputs, inputs), "f" (outputs, forces).
 
     Raises
     ------
-    InputError : a signal that the system does not have, or an output that is not smooth.
+    InputError : a signal that the system does not have; an output that is not smooth, or that
+        feels the second rate of an input.
     """
-    known = {*system.operating_point, *system.kinematics}
-    foreign = [s.name for s in signals(output) if s.base not in known]
-    if foreign:
-        raise InputError(f"output {output}: found the signal {foreign[0]}; expected only "
-                         f"{', '.join(s.name for s in known)} and their rates")  # fmt: skip
-    return Jets(system.operating_point, system.kinematics).gradient(output)
+    system = system if outputs is None else replace(system, outputs=outputs)
+    jets = Jets(system.operating_point, system.kinematics)
+    gradients = {name: jets.gradient(sp.sympify(u)) for name, u in system.outputs.items()}
+    q, w = system.coordinates, system.inputs
+    for name, gradient in gradients.items():
+        if any(s.ddot in gradient for s in w):
+            raise InputError(
+                f"output {name}: found that it feels the second rate of an input; expected inputs "
+                "and their rates alone"
+            )
+    columns = {"a": [s.ddot for s in q], "v": [s.dot for s in q], "d": q}
+    columns |= {"w": w, "dw": [s.dot for s in w], "f": system.forces}
+    return {
+        rows: sp.ImmutableSparseMatrix(
+            [[g.get(s, sp.S.Zero) for s in of] for g in gradients.values()]
+        )
+        for rows, of in columns.items()
+    }
+
+
+@cache
+def _tidy(entry: sp.Expr) -> sp.Expr:
+    """Numbers taken out of the factors of each term: k (2 - 4 l)(4 - 8 l)/8 as k (1 - 2 l)²."""
+    terms = []
+    for term in sp.Add.make_args(entry):
+        parts = [f.primitive() if f.is_Add else (f, sp.S.One) for f in sp.Mul.make_args(term)]
+        terms.append(sp.Mul(*(factor for part in parts for factor in part)))
+    return sp.Add(*terms)
 
 
 def _force_derivatives(system: Lagrangian, jets: Jets) -> dict[tuple[Signal, Signal], sp.Expr]:

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from railride.errors import InputError
-from railride.numeric import Array, symmetric_eigenvalues
-from railride.vehicle import Matrices, VehicleModel
+from railride.numeric import Array, Matrices, symmetric_eigenvalues
+from railride.vehicle import VehicleModel
 
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
 
@@ -53,7 +53,7 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     --------
     >>> from railride import load_vehicle, derive_vehicle
     >>> [mode.label for mode in modes(derive_vehicle(load_vehicle("cati2024"), segments=2))][:3]
-    ['heave', 'pitch', 'bending 1']
+    ['heave', 'pitch', 'bogie heave']
     """
     A = model.matrices(**changes)
     eigenvalues, vectors = eigen(A)
@@ -96,8 +96,10 @@ def eigen(A: Matrices) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     scale = 1 / np.sqrt(np.diagonal(A.M))
     condition = np.linalg.cond(scale[:, np.newaxis] * A.M * scale)
     if condition > 1e12:
-        raise InputError(f"M: found a mass matrix of condition {condition:.1e}; expected below 1e12 "
-                         "(masses and inertias of very different size: check their units)")  # fmt: skip
+        raise InputError(
+            f"M: found a mass matrix of condition {condition:.1e}; expected below 1e12 (masses and "
+            "inertias of very different size: check their units)"
+        )
     n = A.M.shape[-1]
     system = np.zeros((2 * n, 2 * n))
     system[:n, n:] = np.eye(n)
@@ -120,7 +122,7 @@ def refuse_unstable(eigenvalues: NDArray[np.complex128]) -> None:
 
 
 def free_motions(model: VehicleModel, A: Matrices) -> tuple[list[str], Array]:
-    """Labels and shapes (as columns) of the free body's and the bogies' motions, orthogonal in M."""
+    """Labels, and shapes as columns, of the free body's and the bogies' motions."""
     n, bogies = A.M.shape[-1], len(model.vehicle.bogies)
     own = n - 2 * bogies
     labels = ["heave", "pitch", *(f"bending {k}" for k in range(1, own - 1))]

@@ -1,4 +1,4 @@
-"""From symbols to numbers: sympy expressions become vectorised numpy functions of the parameters, once.
+"""From symbols to numbers: matrices become vectorised functions of the parameters, once.
 
 A changed parameter never derives again, and an array of parameters gives an array of matrices.
 """
@@ -6,6 +6,8 @@ A changed parameter never derives again, and an array of parameters gives an arr
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -15,6 +17,8 @@ from railride.errors import InputError
 
 Array = NDArray[np.float64]
 Values = Mapping[str, ArrayLike]
+
+FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")}
 
 
 class MatrixFunction:
@@ -47,7 +51,7 @@ class MatrixFunction:
         }
         symbols: set[sp.Symbol] = set().union(*(e.free_symbols for e in unique))
         self.symbols: tuple[sp.Symbol, ...] = tuple(sorted(symbols, key=lambda s: s.name))
-        self._evaluate = sp.lambdify(self.symbols, unique, modules="numpy")
+        self._evaluate = sp.lambdify(self.symbols, unique, modules=_namespace(unique))
 
     def __call__(self, values: Values) -> dict[str, Array]:
         """The matrices at the values.
@@ -72,10 +76,50 @@ class MatrixFunction:
         return result
 
 
-def evaluate(expressions: Mapping[str, sp.Expr], values: Values) -> dict[str, Array]:
-    """Scalar expressions at the values: name → array."""
-    found = MatrixFunction({name: sp.Matrix([[e]]) for name, e in expressions.items()})(values)
-    return {name: A[..., 0, 0] for name, A in found.items()}
+@dataclass(frozen=True)
+class Matrices:
+    """M, C, K (..., n, n), K_w, C_w (..., n, wheelsets) and B_f (..., n, bogies) as numbers, SI.
+
+    Raises
+    ------
+    InputError : M, C or K not symmetric, M not positive definite, or a uniform lift that strains:
+        K u₀ = K_w 1 and C u₀ = C_w 1 must hold, u₀ the coordinates of a uniform lift.
+    """
+
+    M: Array
+    C: Array
+    K: Array
+    K_w: Array
+    C_w: Array
+    B_f: Array
+    lift: Array
+
+    def __post_init__(self) -> None:
+        for name in ("M", "C", "K", "K_w", "C_w", "B_f"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise InputError(f"{name}: found a value that is no finite number; expected "
+                                 "finite parameters, lengths other than zero")  # fmt: skip
+        for name in ("M", "C", "K"):
+            A = getattr(self, name)
+            if np.abs(A - np.swapaxes(A, -1, -2)).max() > 1e-9 * np.abs(A).max():
+                raise InputError(f"{name}: found a matrix that is not symmetric; expected "
+                                 "springs and dampers between pairs of points")  # fmt: skip
+        try:
+            np.linalg.cholesky(self.M)
+        except np.linalg.LinAlgError:
+            raise InputError("M: found a mass matrix that is not positive definite; expected "
+                             "positive masses and inertias") from None  # fmt: skip
+        for name, A, A_w in (("K", self.K, self.K_w), ("C", self.C, self.C_w)):
+            strain = np.abs(A @ self.lift - A_w.sum(axis=-1)).max()
+            if strain > 1e-9 * max(np.abs(A).max(), 1e-300):
+                raise InputError(f"{name}: found that a uniform lift of vehicle and track leaves "
+                                 f"a force of {strain:.3g}; expected none")  # fmt: skip
+
+
+def _namespace(expressions: Sequence[sp.Expr]) -> str | list[dict[str, Any]]:
+    """What lambdify calls: numpy by hand, since all of it takes 0.1 s to load."""
+    used = {f.func.__name__ for e in expressions for f in e.atoms(sp.Function)}
+    return [FUNCTIONS] if used <= set(FUNCTIONS) else "numpy"
 
 
 def symmetric_eigenvalues(M: Array, K: Array) -> Array:
@@ -86,8 +130,3 @@ def symmetric_eigenvalues(M: Array, K: Array) -> Array:
     inverse = np.linalg.inv(np.linalg.cholesky(M))
     A = inverse @ K @ np.swapaxes(inverse, -1, -2)
     return np.asarray(np.linalg.eigvalsh((A + np.swapaxes(A, -1, -2)) / 2))
-
-
-def names(symbols: Sequence[sp.Symbol]) -> list[str]:
-    """The names of symbols."""
-    return [s.name for s in symbols]

@@ -7,8 +7,8 @@ with the one-sided spectrum S of the track, the vehicle's response H to it and a
 integrand is smooth but for its poles; panels shrink towards each pole as far as it is from the real
 axis (a mode of damping ratio 2e-6 included), and Gauss's rule converges geometrically on each.
 
-A run of duration T is a sample. Of a Gaussian process of one-sided spectrum S_a, the mean square over
-T scatters with the variance ∫ S_a² df / T, so that its root has the relative standard error
+A run of duration T is a sample. Of a Gaussian process of one-sided spectrum S_a, the mean square
+over T scatters with the variance ∫ S_a² df / T, so that its root has the relative standard error
 ½ √(∫ S_a² df / T) / ∫ S_a df.
 
 Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Chapters 7 and 9;

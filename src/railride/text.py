@@ -1,4 +1,4 @@
-"""Mathematics as plain text for a terminal: Greek letters, dots for rates, terms one after another."""
+"""Mathematics as plain text for a terminal: Greek letters, dots for rates."""
 
 from __future__ import annotations
 
@@ -19,6 +19,11 @@ WIDTH = 100
 
 class TextPrinter(StrPrinter):
     """sympy's text with ``θ̇_1`` for ``theta_1_dot`` and ``L²`` for ``L**2``."""
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        """What is positive first: ``z_0 - z_1``, not ``-z_1 + z_0``."""
+        del order
+        return sorted(expr.args, key=lambda term: bool(term.could_extract_minus_sign()))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return symbol(expr)

@@ -132,16 +132,22 @@ def read_track(path: str | Path) -> Track:
     )
 
 
-def write_track(track: Track, path: str | Path) -> None:
-    """Write ``track`` as CSV with the columns ``distance_m,level_m``, one row per sample.
+def track_text(track: Track) -> str:
+    """``track`` as CSV with the columns ``distance_m,level_m``, one row per sample.
 
-    Every number is written so that it reads back to the last bit. The file is whole or not there.
-
-    Raises InputError where ``path`` cannot be written.
+    Every number is written so that it reads back to the last bit.
     """
     pairs = zip(track.distance.tolist(), track.level.tolist(), strict=True)
     rows = "".join(f"{distance!r},{level!r}\n" for distance, level in pairs)
-    write_text(path, "distance_m,level_m\n" + rows)
+    return "distance_m,level_m\n" + rows
+
+
+def write_track(track: Track, path: str | Path) -> None:
+    """Write :func:`track_text` of ``track`` to ``path``. The file is whole or not there.
+
+    Raises InputError where ``path`` cannot be written.
+    """
+    write_text(path, track_text(track))
 
 
 def _read_text(path: Path, faults: Faults) -> str:

@@ -1,18 +1,9 @@
-r"""The vehicle: a car body on bogies, as one Lagrangian, with its linear model in symbols and numbers.
+r"""The vehicle: a car body on bogies, derived, linear in symbols and in numbers.
 
-Each bogie adds its heave z_b and pitch θ_b, and springs and dampers that act vertically:
+.. math:: M \ddot q + C \dot q + K q = K_w w + C_w \dot w + B_f f
 
-.. math:: T = \tfrac12 m_b \dot z_b^2 + \tfrac12 I_b \dot\theta_b^2, \quad
-          V = \tfrac12 k_2 s^2 + \sum_j \tfrac12 k_1 p_j^2, \quad
-          D = \tfrac12 c_2 \dot s^2 + \sum_j \tfrac12 c_1 \dot p_j^2
-
-.. math:: s = z_{body}(x_b) - z_b, \qquad p_j = z_b + l_j \sin\theta_b - w_j
-
-with the extension s of the secondary suspension and p_j of the primary suspension of wheelset j.
-Heights count from static equilibrium: preloads carry the weight. An actuator force f, positive when
-it pushes body and bogie apart, does the virtual work f δs.
-
-Source: Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Figure 2 and Table 1.
+The coordinates q are the car body's, then each bogie's heave and pitch; w are the elevations under
+the wheelsets and f the actuator forces, all numbered from the front.
 """
 
 from __future__ import annotations
@@ -24,24 +15,22 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
-from sympy import sin
 
 from railride.bodies import BodyModel, Parameter, RigidBody, SegmentedBody
 from railride.bodies.segments import c_theta, f_bending, k_theta, zeta_bending
 from railride.errors import InputError
-from railride.lagrange import Coordinate, Force, Input, Lagrangian, rate
-from railride.linear import LinearModel, linear_output, linearise
-from railride.numeric import Array, MatrixFunction, evaluate, symmetric_eigenvalues
+from railride.lagrange import Coordinate, Lagrangian, rate
+from railride.linear import LinearModel, linearise, output_rows
+from railride.numeric import Array, Matrices, MatrixFunction, symmetric_eigenvalues
 from railride.parameters import Vehicle
+from railride.running_gear import (
+    RunningGear,
+    bogie_heave,
+    primary_deflection,
+    secondary_deflection,
+)
 
-BOGIE_SYMBOLS = {
-    "mass": ("m_b", "bogie mass", "kg"),
-    "pitch_inertia": ("I_b", "bogie pitch inertia", "kg m^2"),
-    "primary_stiffness": ("k_1", "primary stiffness per axle", "N/m"),
-    "primary_damping": ("c_1", "primary damping per axle", "N s/m"),
-    "secondary_stiffness": ("k_2", "secondary stiffness per bogie", "N/m"),
-    "secondary_damping": ("c_2", "secondary damping per bogie", "N s/m"),
-}
+HELD = 1e-13  # of the largest ω²: below it no spring holds the motion
 
 
 @dataclass(frozen=True)
@@ -52,46 +41,6 @@ class Output:
     expression: sp.Expr
     unit: str
     latex: str
-
-
-@dataclass(frozen=True)
-class Matrices:
-    """M, C, K (..., n, n), K_w, C_w (..., n, wheelsets) and B_f (..., n, bogies) as numbers, SI.
-
-    Raises
-    ------
-    InputError : M, C or K not symmetric, M not positive definite, or a uniform lift that strains:
-        K u₀ = K_w 1 and C u₀ = C_w 1 must hold, u₀ the coordinates of a uniform lift.
-    """
-
-    M: Array
-    C: Array
-    K: Array
-    K_w: Array
-    C_w: Array
-    B_f: Array
-    lift: Array
-
-    def __post_init__(self) -> None:
-        for name in ("M", "C", "K", "K_w", "C_w", "B_f"):
-            if not np.isfinite(getattr(self, name)).all():
-                raise InputError(f"{name}: found a value that is no finite number; expected "
-                                 "finite parameters, lengths other than zero")  # fmt: skip
-        for name in ("M", "C", "K"):
-            A = getattr(self, name)
-            if np.abs(A - np.swapaxes(A, -1, -2)).max() > 1e-9 * np.abs(A).max():
-                raise InputError(f"{name}: found a matrix that is not symmetric; expected "
-                                 "springs and dampers between pairs of points")  # fmt: skip
-        try:
-            np.linalg.cholesky(self.M)
-        except np.linalg.LinAlgError:
-            raise InputError("M: found a mass matrix that is not positive definite; expected "
-                             "positive masses and inertias") from None  # fmt: skip
-        for name, A, A_w in (("K", self.K, self.K_w), ("C", self.C, self.C_w)):
-            strain = np.abs(A @ self.lift - A_w.sum(axis=-1)).max()
-            if strain > 1e-9 * max(np.abs(A).max(), 1e-300):
-                raise InputError(f"{name}: found that a uniform lift of vehicle and track leaves "
-                                 f"a force of {strain:.3g}; expected none")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -110,34 +59,14 @@ class VehicleModel:
     remarks: tuple[str, ...] = ()
 
     @cached_property
+    def running_gear(self) -> RunningGear:
+        """The bogies, their symbols and energies."""
+        return RunningGear(self.vehicle)
+
+    @cached_property
     def lagrangian(self) -> Lagrangian:
         """The vehicle's coordinates, energies, inputs and actuator forces."""
-        body = self.body.energies
-        T, V, D = [body.kinetic], [body.potential], [body.dissipation]
-        kinematics = dict(body.kinematics)
-        for b, bogie in enumerate(self.vehicle.bogies, start=1):
-            m, I, k1, c1, k2, c2 = (self._symbol(name, b) for name in BOGIE_SYMBOLS)
-            z, theta, s = bogie_heave(b), bogie_pitch(b), secondary_deflection(b)
-            kinematics[s] = self.body.height(self._place(b), bogie.position) - z
-            T += [m * z.dot**2 / 2, I * theta.dot**2 / 2]
-            V.append(k2 * s**2 / 2)
-            D.append(c2 * s.dot**2 / 2)
-            for j, lever in self._levers(b):
-                p = primary_deflection(j)
-                kinematics[p] = z + lever * sin(theta) - wheelset_elevation(j)
-                V.append(k1 * p**2 / 2)
-                D.append(c1 * p.dot**2 / 2)
-        bogies = range(1, len(self.vehicle.bogies) + 1)
-        return Lagrangian(
-            [*body.coordinates, *(q(b) for b in bogies for q in (bogie_heave, bogie_pitch))],
-            sp.Add(*T),
-            sp.Add(*V),
-            sp.Add(*D),
-            inputs=[wheelset_elevation(j + 1) for j in range(len(self.vehicle.wheelset_positions))],
-            forces=[actuator(b) for b in bogies],
-            virtual_work=[(actuator(b), secondary_deflection(b)) for b in bogies],
-            kinematics=kinematics,
-        )
+        return self.running_gear.under(self.body)
 
     @cached_property
     def linear(self) -> LinearModel:
@@ -147,20 +76,7 @@ class VehicleModel:
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """Every independent parameter with its value: the body's, then the bogies'."""
-        found = {p.symbol: p for p in self.body.parameters}
-        for b, bogie in enumerate(self.vehicle.bogies, start=1):
-            for name, (_, meaning, unit) in BOGIE_SYMBOLS.items():
-                symbol = self._symbol(name, b)
-                found[symbol] = Parameter(symbol, meaning, unit, getattr(bogie, name))
-            places = [(self._place(b), "bogie position, from the body's middle", bogie.position)]
-            places += [
-                (self._lever(b, x), "wheelset position, from the bogie's centre", x)
-                for x in bogie.wheelsets
-            ]
-            for place, meaning, value in places:
-                for symbol in place.free_symbols:
-                    found[symbol] = Parameter(symbol, meaning, "m", value * int(place / symbol))
-        return tuple(found.values())
+        return (*self.body.parameters, *self.running_gear.parameters)
 
     def values(self, **changes: ArrayLike) -> dict[str, Array]:
         """Every parameter's value by name, with those in ``changes`` put in their place.
@@ -182,13 +98,22 @@ class VehicleModel:
                 raise InputError(f"parameters: found {name!r}; expected one of {known}")
             values[name] = np.asarray(value, dtype=float)
             if not np.isfinite(values[name]).all():
-                raise InputError(f"parameters: found {value} for {name}; expected finite numbers")
-        for symbol, definition in self.body.definitions.items():
-            if symbol.name not in changes:
-                values |= evaluate({symbol.name: definition}, values)
+                raise InputError(
+                    f"parameters: found {values[name]} for {name}; expected finite numbers"
+                )
+        for name, definition in self._definitions.items():
+            if name not in changes:
+                values[name] = definition(values)[name][..., 0, 0]
         if self.body.segments > 1:
             self._calibrate_joints(values)
         return values
+
+    @cached_property
+    def _definitions(self) -> dict[str, MatrixFunction]:
+        return {
+            symbol.name: MatrixFunction({symbol.name: sp.Matrix([[definition]])})
+            for symbol, definition in self.body.definitions.items()
+        }
 
     def _calibrate_joints(self, values: dict[str, Array]) -> None:
         """Put k_θ = (2π f_1)²/λ_1 and c_θ = 2 ζ k_θ/ω_1 in, λ_1 = ω_1²/k_θ of the free body.
@@ -242,13 +167,15 @@ class VehicleModel:
         """
         values = self.values(**changes)
         self._refuse_moved_joints(values)
-        return Matrices(**self._numeric(values), lift=self.lift)
+        matrices = Matrices(**self._numeric(values), lift=self.lift)
+        self._refuse_loose(matrices)
+        return matrices
 
     @cached_property
     def lift(self) -> Array:
         """u₀: the coordinates of a uniform lift of the whole vehicle by 1 m."""
         body = self.body.lift
-        heaves = {bogie_heave(b + 1) for b in range(len(self.vehicle.bogies))}
+        heaves = {bogie_heave(b) for b in self.running_gear.bogies}
         return np.array([
             float(body.get(q, q in heaves)) for q in self.lagrangian.coordinates
         ])  # fmt: skip
@@ -281,11 +208,11 @@ class VehicleModel:
     def outputs(self) -> dict[str, Output]:
         """Outputs by name: each bogie's acceleration, every suspension deflection, body ends."""
         found = []
-        for b in range(1, len(self.vehicle.bogies) + 1):
+        for b in self.running_gear.bogies:
             z, s = bogie_heave(b), secondary_deflection(b)
             found.append(Output(f"bogie_{b}_acceleration", z.ddot, "m/s^2", sp.latex(z.ddot)))
             found.append(Output(f"secondary_{b}_deflection", s, "m", sp.latex(s)))
-            for j, _ in self._levers(b):
+            for j, _ in self.running_gear.levers(b):
                 p = primary_deflection(j)
                 found.append(Output(f"primary_{j}_deflection", p, "m", sp.latex(p)))
         return {output.name: output for output in found}
@@ -302,60 +229,44 @@ class VehicleModel:
         ------
         InputError : an output that feels the second rate of an input.
         """
-        system = self.lagrangian
-        gradients = [linear_output(system, output.expression) for output in outputs]
-        for output, gradient in zip(outputs, gradients, strict=True):
-            if any(w.ddot in gradient for w in system.inputs):
-                raise InputError(f"output {output.name}: found that it feels the second rate of the "
-                                 "track elevation; expected elevations and rates")  # fmt: skip
-        q, w = system.coordinates, system.inputs
-        columns = {"a": [s.ddot for s in q], "v": [s.dot for s in q], "d": q, "w": w}
-        columns |= {"dw": [s.dot for s in w], "f": system.forces}
-        rows = {
-            name: sp.SparseMatrix([[g.get(s, 0) for s in of] for g in gradients])
-            for name, of in columns.items()
-        }
-        return MatrixFunction(rows)(self.values(**changes))
+        chosen = tuple(outputs)
+        if chosen not in self._rows:
+            named = {f"{k}: {output.name}": output.expression for k, output in enumerate(chosen)}
+            self._rows[chosen] = MatrixFunction(output_rows(self.lagrangian, named))
+        return self._rows[chosen](self.values(**changes))
+
+    @cached_property
+    def _rows(self) -> dict[tuple[Output, ...], MatrixFunction]:
+        return {}
 
     def _refuse_moved_joints(self, values: Mapping[str, Array]) -> None:
         """The heights that the bogies follow were taken on given segments: hold to them."""
         if not isinstance(self.body, SegmentedBody):
             return
         for b, bogie in enumerate(self.vehicle.bogies, start=1):
-            place = evaluate({"x": self._place(b)}, values)["x"]
-            length = values["L"]
-            ahead = (0.5 - place / length) * self.body.segments
+            place = self.running_gear.place_value(b, values)
+            ahead = np.asarray((0.5 - place / values["L"]) * self.body.segments)
             here = self.body.segment_at(bogie.position)
             if (ahead < here - 1 - 1e-9).any() or (ahead > here + 1e-9).any():
                 raise InputError(
-                    f"bogie {b}: found it on another segment than segment {here}, on which the model "
-                    "was derived; expected positions that stay there (derive the changed vehicle)"
+                    f"bogie {b}: found it on another segment than segment {here}, on which the "
+                    "model was derived; expected positions that stay there (derive the changed "
+                    "vehicle)"
                 )
 
-    def _symbol(self, name: str, b: int) -> sp.Symbol:
-        """A bogie's parameter: one symbol for all bogies where they agree, else one for each."""
-        symbol = BOGIE_SYMBOLS[name][0]
-        agree = len({getattr(bogie, name) for bogie in self.vehicle.bogies}) == 1
-        own = symbol + str(b) if symbol.endswith("_b") else f"{symbol}_b{b}"
-        positive = {"positive": True} if "damping" not in name else {"nonnegative": True}
-        return sp.Symbol(symbol if agree else own, **positive)
-
-    def _place(self, b: int) -> sp.Expr:
-        """Bogie b's position: ±l_b for a mirrored pair, else a symbol of its own."""
-        return _mirrored([bogie.position for bogie in self.vehicle.bogies], "l_b", "x_b")[b - 1]
-
-    def _lever(self, b: int, x: float) -> sp.Expr:
-        """A wheelset's place on bogie b: ±l_w for a mirrored pair, else a symbol of its own."""
-        layouts = {bogie.wheelsets for bogie in self.vehicle.bogies}
-        own = "" if len(layouts) == 1 else f"_b{b}"
-        wheelsets = self.vehicle.bogies[b - 1].wheelsets
-        return _mirrored(wheelsets, f"l_w{own}", f"x_w{own}_")[wheelsets.index(x)]
-
-    def _levers(self, b: int) -> list[tuple[int, sp.Expr]]:
-        """The wheelsets of bogie b: number on the vehicle, and place on the bogie."""
-        before = sum(len(bogie.wheelsets) for bogie in self.vehicle.bogies[: b - 1])
-        wheelsets = self.vehicle.bogies[b - 1].wheelsets
-        return [(before + j, self._lever(b, x)) for j, x in enumerate(wheelsets, start=1)]
+    def _refuse_loose(self, matrices: Matrices) -> None:
+        """Refuse a vehicle some motion of which no spring holds."""
+        squares = symmetric_eigenvalues(matrices.M, matrices.K)
+        if (squares[..., 0] > HELD * squares[..., -1]).all():
+            return
+        which = int(np.argmin(squares[..., 0] / squares[..., -1]))
+        n = squares.shape[-1]
+        _, shapes = np.linalg.eigh(matrices.K.reshape(-1, n, n)[which])
+        q = self.lagrangian.coordinates[int(np.argmax(np.abs(shapes[:, 0])))]
+        raise InputError(
+            f"K: found a motion that no spring holds, mostly along {q}; expected a vehicle that "
+            "stands by itself (a bogie needs two wheelsets, or it can turn about one)"
+        )
 
 
 def derive_vehicle(
@@ -400,48 +311,3 @@ def derive_vehicle(
     idle = [name for name, value in given.items() if value is not None]
     remark = f"the {' and the '.join(idle)} given change nothing: the body is rigid"
     return VehicleModel(vehicle, RigidBody(body), (remark,) if idle else ())
-
-
-def bogie_heave(b: int) -> Coordinate:
-    """Height of bogie b's mass centre."""
-    return Coordinate(f"z_b{b}")
-
-
-def bogie_pitch(b: int) -> Coordinate:
-    """Pitch of bogie b."""
-    return Coordinate(f"theta_b{b}")
-
-
-def secondary_deflection(b: int) -> Coordinate:
-    """Extension of the secondary suspension over bogie b."""
-    return Coordinate(f"s_{b}")
-
-
-def primary_deflection(j: int) -> Coordinate:
-    """Extension of the primary suspension over wheelset j."""
-    return Coordinate(f"p_{j}")
-
-
-def wheelset_elevation(j: int) -> Input:
-    """Track elevation under wheelset j."""
-    return Input(f"w_{j}")
-
-
-def actuator(b: int) -> Force:
-    """Force of the actuator beside the secondary suspension over bogie b."""
-    return Force(f"f_{b}")
-
-
-def _mirrored(places: Sequence[float], mirrored: str, single: str) -> list[sp.Expr]:
-    """Places as symbols: 0, ± one symbol for a mirrored pair, or one symbol each."""
-    pairs = sorted({abs(x) for x in places if x and -x in places}, reverse=True)
-    found: list[sp.Expr] = []
-    for number, x in enumerate(places, start=1):
-        if not x:
-            found.append(sp.S.Zero)
-        elif abs(x) in pairs:
-            name = mirrored if len(pairs) == 1 else f"{mirrored}{pairs.index(abs(x)) + 1}"
-            found.append(int(np.sign(x)) * sp.Symbol(name, positive=True))
-        else:
-            found.append(sp.Symbol(f"{single}{number}", real=True))
-    return found

@@ -63,7 +63,7 @@ class BodyModel(ABC):
 
     @abstractmethod
     def height(self, x: sp.Expr, at: float) -> sp.Expr:
-        """Height of the point x (m, an expression whose value is ``at``) of the body's structure."""
+        """Height of a point of the body's structure; x in m, an expression of value ``at``."""
 
     @abstractmethod
     def floor(self, at: float, reading: str) -> sp.Expr:

@@ -16,7 +16,9 @@ z_c, theta_c, x_c = Coordinate("z_c"), Coordinate("theta_c"), Coordinate("x_c")
 
 
 class RigidBody(BodyModel):
-    r"""One rigid body, :math:`T = \tfrac12 m_c (\dot x_c^2 + \dot z_c^2) + \tfrac12 I_c \dot\theta_c^2`.
+    r"""One rigid body in heave and pitch.
+
+    .. math:: T = \tfrac12 m_c (\dot x_c^2 + \dot z_c^2) + \tfrac12 I_c \dot\theta_c^2
 
     Its middle is held in x; a mass centre e_c forward of the middle moves there by e_c cos θ_c.
     """

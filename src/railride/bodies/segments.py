@@ -141,13 +141,17 @@ class SegmentedBody(BodyModel):
         if self.inertia == "segments":
             return m, sp.S.Zero, J_s
         middle = Rational(self.number + 1 - 2 * i, 2) * ell
-        at_middle = mu_0 + mu_1 * middle + mu_2 * middle**2  # μ(u) = this + slope u + μ_2 u²
-        slope = mu_1 + 2 * mu_2 * middle
+        mu_1 = self._slope
         return (
-            at_middle * ell + mu_2 * ell**3 / 12,
-            slope * ell**3 / 12,
-            at_middle * ell**3 / 12 + mu_2 * ell**5 / 80,
+            ell * (mu_0 + mu_1 * middle + mu_2 * (middle**2 + ell**2 / 12)),
+            ell**3 / 12 * (mu_1 + 2 * mu_2 * middle),
+            ell**3 / 12 * (mu_0 + mu_1 * middle + mu_2 * (middle**2 + 3 * ell**2 / 20)),
         )
+
+    @property
+    def _slope(self) -> sp.Expr:
+        """μ_1: zero where the mass centre is at the middle."""
+        return mu_1 if self.body.mass_centre else sp.S.Zero
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -159,7 +163,7 @@ class SegmentedBody(BodyModel):
         ]
         if self.inertia != "rods":
             found.append(Parameter(I_c, "car-body pitch inertia", "kg m^2", body.pitch_inertia))
-        if self.inertia == "graded":
+        if self.inertia == "graded" and self.body.mass_centre:
             found.append(Parameter(e_c, "mass centre forward of the middle", "m", body.mass_centre))
         if body.bending_frequency is not None:
             found.append(Parameter(f_bending, "free-free first bending frequency", "Hz",
@@ -171,8 +175,8 @@ class SegmentedBody(BodyModel):
         if body.joint_damping is not None:
             found.append(Parameter(c_theta, "joint damping", "N m s/rad", body.joint_damping))
         else:
-            found.append(Parameter(zeta_bending, "structural damping ratio of the first bending mode",
-                                   "", body.bending_damping))  # fmt: skip
+            meaning = "structural damping ratio of the first bending mode"
+            found.append(Parameter(zeta_bending, meaning, "", body.bending_damping))
         return tuple(found)
 
     @property
@@ -180,9 +184,10 @@ class SegmentedBody(BodyModel):
         """μ_0, μ_1, μ_2 or J_s; k_θ = EI/ℓ. Calibrated joints are the vehicle's to evaluate."""
         defined: dict[sp.Symbol, sp.Expr] = {}
         if self.inertia == "graded":
-            excess = I_c + m_c * e_c**2 - m_c * L**2 / 12
-            defined[mu_2] = 180 * excess / L**5
-            defined[mu_1] = 12 * m_c * e_c / L**3
+            e = e_c if self.body.mass_centre else sp.S.Zero
+            defined[mu_2] = 180 * (I_c + m_c * e**2 - m_c * L**2 / 12) / L**5
+            if e:
+                defined[mu_1] = 12 * m_c * e / L**3
             defined[mu_0] = m_c / L - mu_2 * L**2 / 12
         if self.inertia == "segments":
             N = self.number

@@ -46,5 +46,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0 for success, 2 for bad input, 1 for a fault of ours."""
     for stream in (sys.stdout, sys.stderr):  # Greek letters on any terminal
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding="utf-8")
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     app(args=None if arguments is None else list(arguments), prog_name="railride")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -9,12 +10,13 @@ import typer
 from railride.cli import options, output
 from railride.cli.modes import as_json, as_table
 from railride.cli.options import Arguments, build_model
+from railride.cli.progress import working
 
 if TYPE_CHECKING:
     from railride.linear import LinearModel
     from railride.vehicle import VehicleModel
 
-FORMATS = ("table", "json", "csv", "markdown", "latex")
+FORMATS = (*options.FORMATS, "markdown", "latex")
 SYSTEMS = ("vehicle", "half-body", "half-body-free")
 SYMBOLIC = ("M", "C", "K", "K_w", "C_w")
 
@@ -37,11 +39,17 @@ def derive(
         ),
     ] = "vehicle",
     nonlinear: Annotated[
-        bool, typer.Option("--nonlinear", help="Add the nonlinear equations of motion.")
+        bool,
+        typer.Option(
+            "--nonlinear",
+            rich_help_panel=options.RESULT,
+            help="Add the nonlinear equations of motion.",
+        ),
     ] = False,
-    format: Annotated[
+    form: Annotated[
         str,
         typer.Option(
+            "--format",
             metavar="|".join(FORMATS),
             rich_help_panel=options.RESULT,
             help="How the result is written.",
@@ -52,38 +60,65 @@ def derive(
     """Derive and linearise: coordinates, energies, equations, matrices, natural frequencies.
 
     Example:  railride derive --segments 4
-    """  # fmt: skip
+    """
     given = Arguments()
-    given.choice("--format", format, FORMATS)
+    given.choice("--format", form, FORMATS)
     given.choice("--system", system, SYSTEMS)
-    if system.startswith("half-body") and format not in ("markdown", "latex"):
-        given.faults.add(f"--system {system}", f"--format {format}", "markdown or latex")
-    output.check_output(to)
-    if system.startswith("half-body"):
-        given.check()
-        from railride import report
-
-        output.write(report.half_body_document(system == "half-body-free", format), to)
+    if nonlinear and form == "csv":
+        given.faults.add("--nonlinear", "--format csv with it", "a format that holds equations: "
+                         "table, json, markdown or latex")  # fmt: skip
+    output.check_output(given.faults, "--output", to)
+    given.separate({"--output": to}, {"--vehicle": vehicle})
+    if system in SYSTEMS[1:]:
+        needless = {
+            "--vehicle": None if vehicle == "cati2024" else vehicle,
+            "--segments": segments,
+            "--body": body,
+            "--bending-frequency": bending_frequency,
+            "--joint-stiffness": joint_stiffness,
+            "--bending-damping": bending_damping,
+        }
+        _write_half_body(given, system, form, nonlinear, needless, to)
         return
-    model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                        bending_damping)  # fmt: skip
-    remarks = [*model.vehicle.remarks, *model.remarks]
-    if format != "json":
-        output.remark(remarks)
-    output.write(_as_text(model, format, nonlinear, remarks), to)
+    with working("deriving"):
+        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
+                            bending_damping)  # fmt: skip
+        remarks = [*model.vehicle.remarks, *model.remarks]
+        text = _as_text(model, form, nonlinear, remarks)
+    output.write(text, to)
+    output.remark(remarks)
 
 
-def _as_text(model: VehicleModel, format: str, nonlinear: bool, remarks: list[str]) -> str:
+def _write_half_body(
+    given: Arguments, system: str, form: str, nonlinear: bool, needless: dict[str, str | None],
+    to: str | None,
+) -> None:  # fmt: skip
+    """The paper's two halves, which have symbols only and no vehicle."""
+    if form not in ("markdown", "latex"):
+        given.faults.add(f"--system {system}", f"--format {form}", "markdown or latex")
+    for option, value in needless.items():
+        if value is not None:
+            given.conflict(option, f"--system {system}")
+    if nonlinear:
+        given.faults.add("--nonlinear", f"--system {system} with it", "one of the two",
+                         "its document has the nonlinear equations as it is")  # fmt: skip
+    given.check()
+    from railride import report
+
+    output.write(report.half_body_document(system == "half-body-free", form), to)
+
+
+def _as_text(model: VehicleModel, form: str, nonlinear: bool, remarks: list[str]) -> str:
     import sympy as sp
 
-    if format in ("markdown", "latex"):
+    if form in ("markdown", "latex"):
         from railride import report
 
-        return report.vehicle_document(model, format, nonlinear=nonlinear)
+        return str(report.vehicle_document(model, form, nonlinear=nonlinear))
     linear = model.linear.map(sp.factor)
-    if format == "json":
+    if form == "json":
         return output.json_text({**_as_json(model, linear, nonlinear), "remarks": remarks})
-    if format == "csv":
+    if form == "csv":
         return _as_csv(model, linear)
     return _as_table(model, linear, nonlinear)
 
@@ -92,29 +127,22 @@ def _as_json(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> dict[
     from railride import modal
 
     values, numbers = model.values(), model.matrices()
-    written: dict[sp_Expr, str] = {}
-
-    def string(e: sp_Expr) -> str:
-        return written.setdefault(e, str(e)) if e not in written else written[e]
-
+    string = cache(str)  # most entries stand in a matrix several times
     document = {
         "segments": model.body.segments,
         "coordinates": [q.name for q in linear.coordinates],
         "parameters": {name: float(value) for name, value in values.items()},
-        "joint_stiffness": float(values["k_theta"]) if "k_theta" in values else None,
+        "joint_stiffness": float(values["k_theta"]) if model.body.segments > 1 else None,
         **{name: getattr(numbers, name) for name in SYMBOLIC},
         "symbolic": {
             name: [[string(e) for e in row] for row in linear.matrices[name].tolist()]
             for name in SYMBOLIC
         },
-        **as_json(modal.modes(model), modal.undamped_frequencies(numbers)),
+        **as_json(model, modal.modes(model), modal.undamped_frequencies(numbers)),
     }
     if nonlinear:
         document["nonlinear"] = [str(e) for e in model.lagrangian.equations()]
     return document
-
-
-sp_Expr = Any  # noqa: N816 - sympy is loaded when it is needed
 
 
 def _as_csv(model: VehicleModel, linear: LinearModel) -> str:
@@ -137,22 +165,23 @@ def _as_table(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> str:
     from railride import modal, text
 
     values = model.values()
-    units = {p.symbol.name: (p.meaning, p.unit) for p in model.parameters}
-    units |= {"k_theta": ("joint stiffness", "N m/rad"), "c_theta": ("joint damping", "N m s/rad")}
+    units = {p.symbol.name: (p.unit, p.meaning) for p in model.parameters}
+    units |= {"k_theta": ("N m/rad", "joint stiffness"), "c_theta": ("N m s/rad", "joint damping")}
+    dependent = ("", "follows from the others")
     columns = [("symbol", ""), ("value", ".6g"), ("unit", ""), ("meaning", "")]
     rows = [
-        (text.symbol(_symbol(name)), float(value), *reversed(units.get(name, ("", ""))))
+        (text.symbol(_symbol(name)), float(value), *units.get(name, dependent))
         for name, value in values.items()
     ]
+    degrees = f"{len(linear.coordinates)} degrees of freedom"
     parts = [
-        f"{model.vehicle.name}: {_count(model.body.segments)}, "
-        f"{len(linear.coordinates)} degrees of freedom",
+        f"{model.vehicle.name}: {_count(model.body.segments)}, {degrees}",
         output.table_text("Parameters", columns, rows).rstrip(),
-        "Energies\n" + text.energies(model.lagrangian),
+        "Energies\n\n" + text.energies(model.lagrangian),
     ]
     if nonlinear:
-        parts.append("Nonlinear equations of motion\n" + text.equations(model.lagrangian))
-    parts.append("Linear equations of motion\n" + text.matrices(linear))
+        parts.append("Nonlinear equations of motion\n\n" + text.equations(model.lagrangian))
+    parts.append("Linear equations of motion\n\n" + text.matrices(linear))
     found = modal.modes(model), modal.undamped_frequencies(model.matrices())
     parts.append(as_table(*found))
     return "\n\n".join(parts)

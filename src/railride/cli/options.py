@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -10,9 +12,13 @@ import typer
 from railride.errors import Faults, InputError
 
 if TYPE_CHECKING:
+    from railride.parameters import Vehicle
     from railride.vehicle import VehicleModel
 
 BODIES = ("rigid", "segments")
+FORMATS = ("table", "json", "csv")
+MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
+LARGEST_SEED = 2**32 - 1
 
 BODY, RESULT = "The vehicle and its body", "The result"
 
@@ -32,7 +38,8 @@ FrequencyOption = Annotated[
                              "frequency.")]  # fmt: skip
 StiffnessOption = Annotated[
     str | None, typer.Option("--joint-stiffness", metavar="VALUE", rich_help_panel=BODY,
-                             help='Joint stiffness in N m/rad, or as "3.7e5 kN*m/rad".')]  # fmt: skip
+                             help="Joint stiffness in N m/rad, or as '3.7e5 kN*m/rad'.")
+]  # fmt: skip
 DampingOption = Annotated[
     str | None, typer.Option("--bending-damping", metavar="ZETA", rich_help_panel=BODY,
                              help="Structural damping ratio of the first bending mode; "
@@ -42,7 +49,7 @@ FloorOption = Annotated[
                       help="Where the floor is: on the smooth line through the segments, or on "
                       "their polygon, as in the paper.")]  # fmt: skip
 FormatOption = Annotated[
-    str, typer.Option("--format", metavar="table|json|csv", rich_help_panel=RESULT,
+    str, typer.Option("--format", metavar="|".join(FORMATS), rich_help_panel=RESULT,
                       help="How the result is written.")]  # fmt: skip
 OutputOption = Annotated[
     str | None, typer.Option("--output", metavar="FILE", rich_help_panel=RESULT,
@@ -72,28 +79,45 @@ class Arguments:
             self.faults.add(option, error.found, error.expected, error.mend)
             return None
 
-    def numbers(self, option: str, texts: Sequence[str], unit: str) -> list[float]:
-        """SI values of an option that may be repeated."""
-        return [x for x in (self.number(option, text, unit) for text in texts) if x is not None]
-
-    def whole(self, option: str, text: str | None, least: int = 0) -> Any:
-        """A whole number of at least ``least``; None stays None."""
-        if text is None:
-            return None
-        try:
-            value = int(text)
-        except ValueError:
-            value = least - 1
-        if value < least:
-            self.faults.add(option, repr(text), f"a whole number of at least {least}")
+    def positive(self, option: str, text: str | None, unit: str) -> Any:
+        """SI value of a number that must be above zero; None stays None."""
+        value = self.number(option, text, unit)
+        if value is not None and value <= 0:
+            self.faults.add(option, repr(text), f"a number above 0, in {unit} or with its unit")
             return None
         return value
+
+    def whole(self, option: str, text: str | None, least: int, most: int) -> Any:
+        """A whole number from ``least`` to ``most``; None stays None."""
+        if text is None:
+            return None
+        if re.fullmatch(r"[+-]?[0-9]{1,18}", text) and least <= int(text) <= most:
+            return int(text)
+        self.faults.add(option, repr(text), f"a whole number from {least} to {most}",
+                        f"such as {option} {max(least, 4)}")  # fmt: skip
+        return None
 
     def choice(self, option: str, text: str, choices: Sequence[str]) -> str:
         """One of ``choices``."""
         if text not in choices:
             self.faults.add(option, repr(text), f"one of {', '.join(choices)}")
         return text
+
+    def conflict(self, option: str, other: str, mend: str = "leave one of the two out") -> None:
+        """Note two options that cannot go together."""
+        self.faults.add(option, f"{other} with it", "one of the two", mend)
+
+    def separate(self, written: dict[str, str | None], read: dict[str, str | None]) -> None:
+        """Note a file that would be written over another one, or over what is read."""
+        taken: dict[Path, str] = {}
+        for option, name in [*read.items(), *written.items()]:
+            if name is None or "\0" in name or not Path(name).name:
+                continue
+            place = Path(name).absolute()
+            if option in written and place in taken:
+                self.faults.add(option, f"{name!r}, the file of {taken[place]}", "another file",
+                                "choose another name")  # fmt: skip
+            taken.setdefault(place, option)
 
     def check(self) -> None:
         """Raise what was wrong, if anything."""
@@ -110,33 +134,40 @@ def build_model(
     ------
     InputError : faults of the options together with any noted in ``given``; of the vehicle's file.
     """
-    N = given.whole("--segments", segments, least=1)
-    frequency = given.number("--bending-frequency", bending_frequency, "Hz")
-    stiffness = given.number("--joint-stiffness", joint_stiffness, "N m/rad")
+    N = given.whole("--segments", segments, 1, MOST_SEGMENTS)
+    frequency = given.positive("--bending-frequency", bending_frequency, "Hz")
+    stiffness = given.positive("--joint-stiffness", joint_stiffness, "N m/rad")
     damping = given.number("--bending-damping", bending_damping, "")
     if body is not None:
         given.choice("--body", body, BODIES)
     if body == "rigid" and N is not None and N > 1:
         given.faults.add("--body rigid", f"--segments {N} with it", "one segment",
                          "leave one of the two out")  # fmt: skip
-    for option, value in (("--bending-frequency", frequency), ("--joint-stiffness", stiffness)):
-        if value is not None and value <= 0:
-            given.faults.add(option, f"{value:g}", "a value above 0")
     if damping is not None and not 0 <= damping < 1:
-        given.faults.add("--bending-damping", f"{damping:g}", "a ratio of at least 0 and below 1")
+        given.faults.add("--bending-damping", repr(bending_damping), "a ratio of at least 0 and "
+                         "below 1", 'such as 0.015 or "1.5 %"')  # fmt: skip
     if bending_frequency is not None and joint_stiffness is not None:
-        given.faults.add("--bending-frequency", "--joint-stiffness with it", "one of the two",
-                         "the other follows")  # fmt: skip
+        given.conflict("--bending-frequency", "--joint-stiffness",
+                       "leave one of the two out: it follows from the other")  # fmt: skip
     given.check()
     from railride.parameters import load_vehicle
-    from railride.vehicle import derive_vehicle
 
     found = load_vehicle(vehicle)
-    if body == "rigid":
-        N = 1
-    model = derive_vehicle(found, N, bending_frequency=frequency, joint_stiffness=stiffness,
-                           bending_damping=damping)  # fmt: skip
-    if body == "segments" and model.body.kind == "rigid" and N is None:
-        raise InputError(f"{found.name}: found no bending frequency, with --body segments; expected "
-                         "one (give --bending-frequency or --joint-stiffness)")  # fmt: skip
-    return model
+    if frequency is None and stiffness is None:
+        _refuse_unknown_bending(found, N, body)
+    from railride.vehicle import derive_vehicle
+
+    return derive_vehicle(found, 1 if body == "rigid" else N, bending_frequency=frequency,
+                          joint_stiffness=stiffness, bending_damping=damping)  # fmt: skip
+
+
+def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:
+    """Several segments need a stiffness between them."""
+    known = (found.body.bending_frequency, found.body.joint_stiffness, found.body.bending_stiffness)
+    if any(value is not None for value in known):
+        return
+    if (N or 1) > 1 or (N is None and body == "segments"):
+        asked = f"--segments {N}" if N else "--body segments"
+        raise InputError(f"vehicle {found.name}: found {asked} for a car body whose bending is not "
+                         "known; expected its stiffness (give --bending-frequency or "
+                         "--joint-stiffness, or take one segment)")  # fmt: skip

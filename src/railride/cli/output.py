@@ -1,4 +1,7 @@
-"""Writing results: a table, one JSON document or CSV, to standard output or to a file."""
+"""Writing results: a table, one JSON document or CSV, to standard output or to a file.
+
+The result alone goes to standard output; remarks, progress and messages go to standard error.
+"""
 
 from __future__ import annotations
 
@@ -8,119 +11,193 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import zip_longest
 from math import isfinite
 from pathlib import Path
 from typing import Any, ParamSpec
 
 import typer
 
-from railride.errors import InputError
+from railride.errors import Faults, InputError
 
 P = ParamSpec("P")
 
+INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
+_TOO_MUCH = (
+    "railride: found too little memory for what was asked; expected it to fit (a shorter track, a "
+    "higher speed, a coarser step or fewer segments need less)"
+)
+_OURS = (
+    "railride: this is a fault of the program, not of what you gave it. Please report it with the "
+    "lines above and the command."
+)
+
 
 def exits_cleanly(command: Callable[P, None]) -> Callable[P, None]:
-    """A command that says what is wrong with the input in one message and exits with 2."""
+    """A command that ends with 0, or says in one message what is wrong and ends with 2.
+
+    Only a fault of the program ends with 1, and shows where it happened.
+    """
 
     @functools.wraps(command)
     def run(*args: P.args, **kwargs: P.kwargs) -> None:
         try:
             command(*args, **kwargs)
         except InputError as error:
-            typer.echo(f"railride: {error}", err=True)
-            raise typer.Exit(2) from None
+            _stop(f"railride: {error}", 2)
         except BrokenPipeError:  # the reader, such as head, has seen enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             raise typer.Exit(0) from None
+        except KeyboardInterrupt:
+            _stop("railride: interrupted", INTERRUPTED)
+        except MemoryError:
+            _stop(_TOO_MUCH, 2)
+        except Exception:  # noqa: BLE001 - shown in full, and the exit code says whose fault it is
+            import traceback
+
+            _stop(traceback.format_exc() + _OURS, 1)
 
     return run
 
 
-def check_output(path: str | None) -> None:
-    """Refuse a file that cannot be written, before any work is done for it."""
-    if path is None:
-        return
-    target = Path(path)
-    if not path or target.is_dir():
-        raise InputError(f"--output {path!r}: found a folder; expected the name of a file")
-    if not target.parent.is_dir():
-        raise InputError(f"--output {path!r}: found no folder {str(target.parent)!r}; expected one "
-                         "that exists (make it first)")  # fmt: skip
-    if not os.access(target.parent, os.W_OK):
-        raise InputError(f"--output {path!r}: found a folder that cannot be written; expected one "
-                         "that can (choose another)")  # fmt: skip
+def _stop(message: str, code: int) -> None:
+    typer.echo(message, err=True)
+    raise typer.Exit(code) from None
 
 
-def check_folder(path: str | None, option: str) -> None:
-    """Refuse a folder that neither exists and is writable, nor can be made."""
+def check_output(faults: Faults, option: str, path: str | None) -> None:
+    """Note a file that cannot be written, before any work is done for it."""
     if path is None:
         return
-    target = Path(path)
-    if target.exists() and not target.is_dir():
-        raise InputError(f"{option} {path!r}: found a file; expected a folder")
-    nearest = next(p for p in (target, *target.absolute().parents) if p.exists())
-    if not nearest.is_dir() or not os.access(nearest, os.W_OK):
-        raise InputError(f"{option} {path!r}: found a folder that cannot be written; expected one "
-                         "that can (choose another)")  # fmt: skip
+    where, target = f"{option} {path!r}", Path(path)
+    try:
+        if not path or target.is_dir():
+            faults.add(where, "a folder" if path else "no name", "the name of a file",
+                       "name the file to be written")  # fmt: skip
+        elif target.exists() and not target.is_file():
+            faults.add(where, "a device or a pipe", "the name of a file",
+                       "without --output the result goes to standard output")  # fmt: skip
+        elif not target.resolve().parent.is_dir():
+            faults.add(where, f"no folder {str(target.parent)!r}", "one that exists",
+                       "make it first")  # fmt: skip
+        elif not os.access(target.resolve().parent, os.W_OK):
+            faults.add(where, "a folder that cannot be written", "one that can",
+                       "choose another folder")  # fmt: skip
+    except (OSError, ValueError, RuntimeError) as error:  # too long, a zero byte, links in a circle
+        faults.add(where, _reason(error), "the name of a file", "choose another name")
+
+
+def check_folder(faults: Faults, option: str, path: str | None) -> None:
+    """Note a folder that neither exists and is writable, nor can be made."""
+    if path is None:
+        return
+    where, target = f"{option} {path!r}", Path(path)
+    try:
+        if not path or "\0" in path or (target.exists() and not target.is_dir()):
+            found = "a file" if path.strip("\0") == path else "a zero byte"
+            faults.add(where, found if path else "no name", "a folder", "name another")
+            return
+        nearest = next(p for p in (target, *target.absolute().parents) if p.exists())
+        if not nearest.is_dir() or not os.access(nearest, os.W_OK):
+            found = "a file" if not nearest.is_dir() else "a folder"
+            faults.add(where, f"{found}, {str(nearest)!r}, in which nothing can be written",
+                       "a folder that can be made and written", "choose another")  # fmt: skip
+    except (OSError, ValueError) as error:
+        faults.add(where, _reason(error), "the name of a folder", "choose another name")
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)
 
 
 def write(text: str, path: str | None) -> None:
-    """The result to standard output, or to a file as a whole."""
+    """The result to standard output, or to a file as a whole or not at all."""
     text = text if text.endswith("\n") else text + "\n"
-    if path is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    else:
+    if path is not None:
         from railride.files import write_text
 
-        write_text(path, text)
+        write_text(Path(path).resolve(), text)  # of a link, the file it points to
+        return
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is dropped
+        raise InputError(f"standard output: found {_reason(error)}; expected that it can be "
+                         "written (make room, or write to another place)") from None  # fmt: skip
+
+
+def result(form: str, document: Mapping[str, Any], rows: Sequence[Mapping[str, Any]],
+           table: Callable[[], str], remarks: Sequence[str]) -> str:  # fmt: skip
+    """The result as text in the format asked for; the remarks are in the JSON as well."""
+    if form == "json":
+        return json_text({**document, "remarks": list(remarks)})
+    return csv_text(rows) if form == "csv" else table()
 
 
 def remark(remarks: Iterable[str]) -> None:
-    """Remarks to standard error, each on its own."""
+    """Remarks to standard error, each on a line of its own."""
     for line in remarks:
         typer.echo(f"remark: {line}", err=True)
 
 
 def json_text(document: Mapping[str, Any]) -> str:
-    """One JSON document; numbers unrounded, what is not finite as null."""
+    """One JSON document; numbers unrounded, what is not finite as null.
+
+    >>> json_text({"rms": 0.1, "crest": float("nan"), "modes": (1, 2)})
+    '{"rms": 0.1, "crest": null, "modes": [1, 2]}'
+    """
     return json.dumps(_clean(document), ensure_ascii=False, allow_nan=False)
 
 
 def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows as CSV with a header."""
+    """Rows as CSV with a header; what is undefined is an empty cell."""
     import csv
 
     stream = io.StringIO()
     writer = csv.DictWriter(stream, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
-    writer.writerows({key: "" if v is None else v for key, v in row.items()} for row in rows)
+    writer.writerows(_clean(row) for row in rows)  # None is written as nothing
     return stream.getvalue()
 
 
 def table_text(
     title: str, columns: Sequence[tuple[str, str]], rows: Iterable[Sequence[Any]]
 ) -> str:
-    """A table as text: columns as (heading, format), None as a dash."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
+    """A table as text: columns as (heading, format), numbers to the right, None as a dash.
 
-    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", title_style="bold",
-                  pad_edge=False)  # fmt: skip
-    for heading, spec in columns:
-        table.add_column(heading, justify="left" if not spec else "right", overflow="fold")
-    for row in rows:
-        table.add_row(*(
+    It looks the same on a terminal and in a file.
+
+    >>> print(table_text("Springs", [("where", ""), ("k [N/m]", ".3g")], [("primary", 5e6)]))
+    Springs
+    <BLANKLINE>
+      where    k [N/m]
+      ────────────────
+      primary    5e+06
+    <BLANKLINE>
+    """
+    specs = [spec for _, spec in columns]
+    body = [
+        [
             "-" if value is None else format(value, spec)
-            for value, (_, spec) in zip(row, columns, strict=True)
-        ))  # fmt: skip
-    stream = io.StringIO()
-    terminal = sys.stdout.isatty()
-    console = Console(file=stream, width=None if terminal else 120, force_terminal=terminal,
-                      highlight=False)  # fmt: skip
-    console.print(table)
-    return stream.getvalue()
+            for value, spec in zip(row, specs, strict=True)
+        ]
+        for row in rows
+    ]
+    heads = [list(line) for line in zip_longest(*(h.split("\n") for h, _ in columns), fillvalue="")]
+    widths = [max(map(len, column)) for column in zip(*heads, *body, strict=True)]
+
+    def line(cells: Sequence[str]) -> str:
+        placed = (
+            cell.rjust(width) if spec else cell.ljust(width)
+            for cell, width, spec in zip(cells, widths, specs, strict=True)
+        )
+        return ("  " + "  ".join(placed)).rstrip()
+
+    rule = "  " + "─" * (sum(widths) + 2 * (len(widths) - 1))
+    return "\n".join([title, "", *map(line, heads), rule, *map(line, body)]) + "\n"
 
 
 def _clean(value: Any) -> Any:

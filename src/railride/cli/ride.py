@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import Arguments, build_model
+from railride.cli.options import FORMATS, Arguments, build_model
+from railride.cli.progress import working
 
 if TYPE_CHECKING:
     from railride.rides import Case, RideResult
+    from railride.spectra import Spectrum
+    from railride.track import Track
 
-FORMATS = ("table", "json", "csv")
 RIDE = "The ride"
 
 TrackOption = Annotated[
     str, typer.Option("--track", metavar="NAME|FILE", rich_help_panel=RIDE,
-                      help="A track spectrum by name, or a CSV file with distance_m, level_m.")]  # fmt: skip
+                      help="A track spectrum by name, or a CSV file with distance_m, level_m.")
+]  # fmt: skip
 
 
 @output.exits_cleanly
@@ -33,14 +35,19 @@ def ride(
     ] = None,
     track: TrackOption = "erri_low",
     length: Annotated[
-        str,
+        str | None,
         typer.Option(
-            metavar="M", rich_help_panel=RIDE, help="The rated section; the run-in comes before it."
+            metavar="M",
+            rich_help_panel=RIDE,
+            help="The rated section; the run-in comes before it. Default 1000.",
         ),
-    ] = "1000",
+    ] = None,
     seed: Annotated[
-        str, typer.Option(metavar="INT", rich_help_panel=RIDE, help="Of the synthetic track.")
-    ] = "1",
+        str | None,
+        typer.Option(
+            metavar="INT", rich_help_panel=RIDE, help="Of the synthetic track. Default 1."
+        ),
+    ] = None,
     at: Annotated[
         list[str] | None,
         typer.Option(
@@ -88,62 +95,93 @@ def ride(
     joint_stiffness: options.StiffnessOption = None,
     bending_damping: options.DampingOption = None,
     floor: options.FloorOption = "smooth",
-    format: options.FormatOption = "table",
+    form: options.FormatOption = "table",
     to: options.OutputOption = None,
 ) -> None:
     """Run over a track at each speed and rate the comfort.
 
     Example:  railride ride --speed 145 --speed 200 --at 0 --plots plots
-    """  # fmt: skip
+    """
     given = Arguments()
-    given.choice("--format", format, FORMATS)
+    given.choice("--format", form, FORMATS)
     given.choice("--floor", floor, ("smooth", "polygon"))
-    speeds = given.numbers("--speed", speed or ["145", "200"], "km/h")
-    for value in speeds:
-        if value <= 0:
-            given.faults.add("--speed", f"{3.6 * value:g} km/h", "a speed above 0")
-    places = given.numbers("--at", at or ["0"], "m")
-    rated = given.number("--length", length, "m")
-    if rated is not None and rated <= 0:
-        given.faults.add("--length", f"{rated:g} m", "a length above 0")
-    number = given.whole("--seed", seed)
+    speeds = [given.positive("--speed", text, "km/h") for text in speed or ("145", "200")]
+    places = [given.number("--at", text, "m") for text in at or ("0",)]
+    rated = given.positive("--length", length, "m")
+    number = given.whole("--seed", seed, 0, options.LARGEST_SEED)
     if spectral and plots is not None:
-        given.faults.add("--plots", "--spectral with it", "a time run to draw",
-                         "leave one of the two out")  # fmt: skip
-    output.check_output(to)
-    output.check_folder(plots, "--plots")
-    model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                        bending_damping)  # fmt: skip
-    from railride import rides, spectra
+        given.conflict("--plots", "--spectral", "leave one of the two out: only a run can be drawn")
+    output.check_output(given.faults, "--output", to)
+    output.check_folder(given.faults, "--plots", plots)
+    given.separate({"--output": to}, {"--vehicle": vehicle, "--track": track})
+    with working("riding") as advance:
+        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
+                            bending_damping)  # fmt: skip
+        from railride import rides
 
-    source = rides.load_track(track)
-    if extrapolate and isinstance(source, spectra.Spectrum):
-        source = source.extrapolated()
-    with _progress(len(speeds), hidden=spectral) as advance:
-        result = rides.ride(
-            model, source, speeds, at=places, length=rated, seed=number, floor=floor,
-            weight=weighting, spectral=spectral, progress=advance,
+        source = rides.load_track(track)
+        idle = _idle(source, spectral, {"--length": length, "--seed": seed}, extrapolate)
+        found = rides.ride(
+            model, source if not extrapolate else _extrapolated(source), speeds, at=places,
+            length=1000.0 if rated is None else rated, seed=1 if number is None else number,
+            floor=floor, weight=weighting, spectral=spectral, progress=advance,
         )  # fmt: skip
-    remarks = list(result.remarks)
-    if plots is not None:
-        from railride import plots as drawing
-
-        remarks.append("drawn: " + ", ".join(map(str, drawing.save_ride_plots(result, plots))))
-    if format == "json":
-        document = {"track": result.track, "cases": [_row(case) for case in result.cases]}
-        text = output.json_text({**document, "remarks": remarks})
-    elif format == "csv":
-        text = output.csv_text([_flat(case) for case in result.cases])
-    else:
-        text = _table(result)
-    if format != "json":
-        output.remark(remarks)
+        drawn = None if plots is None else _draw(found, plots)
+    remarks = [*found.remarks, *idle]
+    text = output.result(
+        form,
+        {"track": found.track, "cases": [_row(case) for case in found.cases]},
+        [_flat(case) for case in found.cases],
+        lambda: _table(found),
+        remarks,
+    )
     output.write(text, to)
+    output.remark(remarks)
+    if drawn:
+        typer.echo(f"drawn: {drawn}", err=True)
+
+
+def _idle(
+    source: Spectrum | Track, spectral: bool, given: dict[str, str | None], extrapolate: bool
+) -> list[str]:
+    """Remarks on options that change nothing."""
+    from railride.spectra import Spectrum
+
+    made = isinstance(source, Spectrum)
+    why = "without a run" if spectral else "on a measured track"
+    idle = [o for o, text in given.items() if text is not None and (spectral or not made)]
+    idle = [o for o in idle if spectral or o != "--length"]
+    remarks = [f"{option} changes nothing {why}" for option in idle]
+    if extrapolate and not (isinstance(source, Spectrum) and source.band):
+        remarks.append(f"--extrapolate changes nothing: {source.name} has no spectrum with a band")
+    return remarks
+
+
+def _extrapolated(source: Spectrum | Track) -> Spectrum | Track:
+    from railride.spectra import Spectrum
+
+    return source.extrapolated() if isinstance(source, Spectrum) else source
+
+
+def _draw(found: RideResult, folder: str) -> str:
+    """Draw into the folder; the names of the files."""
+    from railride import plots
+
+    return ", ".join(map(str, plots.save_ride_plots(found, folder)))
+
+
+def _kmh(speed: float) -> float:
+    """Kilometres per hour as they were typed: the conversion's last bit is rounded away.
+
+    >>> _kmh(145 / 3.6), _kmh(0.1 / 3.6), _kmh(40.0)
+    (145.0, 0.1, 144.0)
+    """
+    return float(f"{3.6 * speed:.15g}")
 
 
 def _row(case: Case) -> dict[str, Any]:
     return {
-        "speed_kmh": 3.6 * case.speed,
+        "speed_kmh": _kmh(case.speed),
         "position_m": case.position,
         "body": case.body,
         "segments": case.segments,
@@ -167,14 +205,15 @@ def _flat(case: Case) -> dict[str, Any]:
 
 
 def _table(result: RideResult) -> str:
+    """The values, and below them the classes of every scale."""
     columns = [
-        ("speed\n[km/h]", "g"), ("at\n[m]", "g"), ("a_rms\n[m/s²]", ".4f"),
+        ("speed\n[km/h]", ".6g"), ("at\n[m]", ".6g"), ("a_rms\n[m/s²]", ".4f"),
         ("a_wrms\n[m/s²]", ".4f"), ("exact\n[m/s²]", ".4f"), ("± std.\nerror", ".4f"),
         ("MTVV\n[m/s²]", ".3f"), ("VDV\n[m/s^1.75]", ".3f"), ("crest\nfactor", ".2f"),
-        ("W_z", ".2f"), ("comfort (paper's Table 3)", ""),
+        ("W_z", ".2f"), ("comfort\n(paper's Table 3)", ""),
     ]  # fmt: skip
     rows = [
-        (round(3.6 * c.speed, 9), c.position, c.a_rms, c.a_wrms, c.a_wrms_exact, c.standard_error,
+        (_kmh(c.speed), c.position, c.a_rms, c.a_wrms, c.a_wrms_exact, c.standard_error,
          c.mtvv, c.vdv, c.crest_factor, c.wz, c.level)
         for c in result.cases
     ]  # fmt: skip
@@ -182,29 +221,10 @@ def _table(result: RideResult) -> str:
     body = "rigid body" if first.segments == 1 else f"{first.segments} segments"
     title = (f"{result.vehicle} ({body}) over {result.track}, {result.floor} floor, "
              f"{result.weighting} weighted")  # fmt: skip
+    scales = [*columns[:2], *((scale, "") for scale in first.levels)]
     classes = [
-        f"  {3.6 * c.speed:g} km/h, {c.position:g} m: "
-        + "; ".join(f"{scale}: {' or '.join(found)}" for scale, found in c.levels.items())
+        (_kmh(c.speed), c.position, *(" or ".join(found) for found in c.levels.values()))
         for c in result.cases
     ]
-    return output.table_text(title, columns, rows) + "\n".join(classes) + "\n"
-
-
-class _progress:  # noqa: N801 - used as a function
-    """A progress bar on standard error where it is a terminal; ``advance(fraction)`` moves it."""
-
-    def __init__(self, steps: int, hidden: bool) -> None:
-        from rich.console import Console
-        from rich.progress import Progress
-
-        console = Console(stderr=True)
-        self._bar = Progress(console=console, transient=True,
-                             disable=hidden or steps < 1 or not console.is_terminal)  # fmt: skip
-        self._task = self._bar.add_task("riding", total=1.0)
-
-    def __enter__(self) -> Callable[[float], None]:
-        self._bar.start()
-        return lambda fraction: self._bar.update(self._task, completed=fraction)
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
+    values = output.table_text(title, columns, rows)
+    return values + "\n" + output.table_text("Comfort by scale", scales, classes)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import Arguments
+from railride.cli.options import FORMATS, Arguments
+from railride.errors import InputError
 
 if TYPE_CHECKING:
+    from railride.spectra import Spectrum
     from railride.track import Track
 
-FORMATS = ("table", "json", "csv")
+DRAWN = (".png", ".pdf", ".svg")
 MAKE = "A synthetic track"
 
 
@@ -62,69 +65,108 @@ def track(
             help="Draw level and spectrum into this file (.png, .pdf, .svg).",
         ),
     ] = None,
-    format: options.FormatOption = "table",
+    form: options.FormatOption = "table",
     to: options.OutputOption = None,
 ) -> None:
     """Make a track from a spectrum, or read one, and describe it.
 
-    ``--format csv`` gives the track itself; the other formats describe it.
+    --format csv gives the track itself; the other formats describe it.
 
     Example:  railride track --spectrum erri_high --length 2000 --seed 7 --write track.csv
-    """  # fmt: skip
+    """
     given = Arguments()
-    given.choice("--format", format, FORMATS)
-    making = {"--spectrum": spectrum, "--length": length, "--step": step, "--seed": seed}
-    for option, value in making.items():
-        if file is not None and value is not None:
-            given.faults.add(option, f"a file, {file!r}, with it", "one of the two",
-                             "leave one of the two out")  # fmt: skip
-    metres, step_m = (given.number(o, making[o], "m") for o in ("--length", "--step"))
-    number = given.whole("--seed", seed)
-    for option, value in (("--length", metres), ("--step", step_m)):
-        if value is not None and value <= 0:
-            given.faults.add(option, f"{value:g} m", "one above 0")
-    given.check()
-    for path in (to, write, plot):
-        output.check_output(path)
-    from railride.spectra import spectrum as named
-    from railride.track import synthesise
-    from railride.trackfile import read_track, track_text
-
+    given.choice("--format", form, FORMATS)
+    making = {"--spectrum": spectrum, "--length": length, "--step": step, "--seed": seed,
+              "--extrapolate": "" if extrapolate else None}  # fmt: skip
     if file is not None:
-        found, source = read_track(file), None
-    else:
-        source = named(spectrum or "erri_low")
-        source = source.extrapolated() if extrapolate else source
-        found = synthesise(
-            source, metres or 1000.0, step_m or 0.25, 1 if number is None else number
-        )
+        for option in (option for option, value in making.items() if value is not None):
+            given.conflict(option, f"the file {file!r}")
+    metres, step_m = given.positive("--length", length, "m"), given.positive("--step", step, "m")
+    number = given.whole("--seed", seed, 0, options.LARGEST_SEED)
+    written = {"--output": to, "--write": write, "--plot": plot}
+    for option, path in written.items():
+        output.check_output(given.faults, option, path)
+    given.separate(written, {"the track": file})
+    if plot is not None and not plot.lower().endswith(DRAWN):
+        given.faults.add("--plot", repr(plot), f"a name that ends in {', '.join(DRAWN)}")
+    given.check()
+    source, found = _read(file) if file is not None else _make(
+        spectrum or "erri_low", extrapolate, metres or 1000.0, step_m or 0.25,
+        1 if number is None else number,
+    )  # fmt: skip
+    from railride.trackfile import track_text
+
+    described, remarks = _described(found)
+    text = output.result(form, described, (), lambda: _table(found, source, described), remarks) \
+        if form != "csv" else track_text(found)  # fmt: skip
     if write is not None:
         output.write(track_text(found), write)
     if plot is not None:
         from railride import plots
 
         plots.save(plots.plot_track_overview(found, source), plot)
-    text = track_text(found) if format == "csv" else _described(found, format)
-    if format != "json":
-        output.remark(found.remarks)
     output.write(text, to)
+    output.remark(remarks)
 
 
-def _described(found: Track, format: str) -> str:
+def _make(
+    name: str, extrapolate: bool, length: float, step: float, seed: int
+) -> tuple[Spectrum | None, Track]:
+    from railride import spectra
+    from railride.track import synthesise
+
+    source = spectra.spectrum(name)
+    source = source.extrapolated() if extrapolate else source
+    return source, synthesise(source, length, step, seed)
+
+
+def _read(file: str) -> tuple[Spectrum | None, Track]:
+    from railride.spectra import spectrum_names
+    from railride.trackfile import read_track
+
+    if file in spectrum_names() and not Path(file).exists():
+        raise InputError(f"track file {file!r}: found no such file; expected a CSV file (to make a "
+                         f"track from that spectrum, --spectrum {file})")  # fmt: skip
+    return None, read_track(file)
+
+
+def _described(found: Track) -> tuple[dict[str, Any], list[str]]:
+    """The keys of cli's JSON, and remarks on what the record cannot tell."""
     from railride.spectra import D1, D2
 
-    rows: dict[str, Any] = {
-        "length_m": found.length,
-        "step_m": found.step,
-        "rms_mm": 1000 * found.rms(),
-        "d1_rms_mm": 1000 * found.band_rms(*D1) if found.covers(*D1) else None,
-        "d2_rms_mm": 1000 * found.band_rms(*D2) if found.covers(*D2) else None,
-    }
-    if format == "json":
-        return output.json_text({**rows, "remarks": found.remarks})
+    remarks = list(found.remarks)
+    rows: dict[str, Any] = {"length_m": found.length, "step_m": found.step,
+                            "rms_mm": 1000 * found.rms()}  # fmt: skip
+    for key, (low, high) in (("d1_rms_mm", D1), ("d2_rms_mm", D2)):
+        covered = found.covers(low, high)
+        rows[key] = 1000 * found.band_rms(low, high) if covered else None
+        if not covered:
+            holds = (
+                f", of wavelengths {found.band[0]:g} to {found.band[1]:g} m" if found.band else ""
+            )
+            remarks.append(
+                f"{found.name}{holds}, {found.length:.6g} m in steps of {found.step:.4g} m, does "
+                f"not resolve wavelengths of {low:g} to {high:g} m: no value for them"
+            )
+    return rows, remarks
+
+
+def _table(found: Track, source: Spectrum | None, rows: dict[str, Any]) -> str:
+    """The values, and beside those of a synthetic track what its spectrum has on average."""
+    from railride.spectra import D1, D2, band_rms
+
+    expected: dict[str, float] = {}
+    if source is not None:
+        bands = {"d1_rms_mm": D1, "d2_rms_mm": D2}
+        expected = {key: 1000 * band_rms(source, *band) for key, band in bands.items()}
     names = {
         "length_m": "length [m]", "step_m": "step [m]", "rms_mm": "r.m.s. [mm]",
         "d1_rms_mm": "r.m.s. in D1, 3-25 m [mm]", "d2_rms_mm": "r.m.s. in D2, 25-70 m [mm]",
     }  # fmt: skip
-    return output.table_text(f"Track {found.name}", [("", ""), ("value", ".4g")],
-                             [(names[key], value) for key, value in rows.items()])  # fmt: skip
+    columns = [("", ""), ("value", ".6g"), ("of the spectrum", ".6g")]
+    table = [
+        (names[key], value, expected.get(key) if value is not None else None)
+        for key, value in rows.items()
+    ]
+    width = 3 if source is not None else 2
+    return output.table_text(f"Track {found.name}", columns[:width], [row[:width] for row in table])

@@ -1,0 +1,22 @@
+"""Pictures of what was computed elsewhere: tracks, rides, mode shapes, to the screen or a file.
+
+``plot_…(data, *, ax=None)`` draws into the axes given, or into a figure of its own, and returns the
+axes; what needs several axes returns the figure. Nothing is shown and no setting is touched: the
+figures know nothing of pyplot, and matplotlib is loaded when the first one is drawn.
+"""
+
+from railride.plots.canvas import save
+from railride.plots.modes import plot_modes
+from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
+from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
+
+__all__ = [
+    "plot_acceleration",
+    "plot_modes",
+    "plot_ride",
+    "plot_track",
+    "plot_track_overview",
+    "plot_track_spectrum",
+    "save",
+    "save_ride_plots",
+]

@@ -1,0 +1,123 @@
+"""Pictures of mode shapes: the car body as a polygon, the bogies below it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from railride.errors import InputError
+from railride.plots import canvas
+from railride.spectra import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from railride.modal import Mode
+    from railride.parameters import Vehicle
+    from railride.vehicle import VehicleModel
+
+# A drawing's own heights: the largest displacement is 1.
+_RAIL, _BOGIE, _FLOOR, _HEIGHT = 0.0, 1.6, 3.8, 1.6
+
+
+@dataclass(frozen=True)
+class ModeShape:
+    """Where the floor's nodes and the bogies go in a mode; the largest displacement is 1.
+
+    nodes : x, m, shape (N + 1,), from the front. floor : displacement there. heave, pitch : of each
+    bogie, shape (bogies,), the pitch per m.
+    """
+
+    nodes: FloatArray
+    floor: FloatArray
+    heave: FloatArray
+    pitch: FloatArray
+
+
+def mode_shape(model: VehicleModel, mode: Mode) -> ModeShape:
+    """Vertical displacements Re(d/d_max): the mode at the instant when the largest is largest.
+
+    d = Y φ with the model's own rows Y of displacement, the polygon at its N + 1 nodes, and
+    z_b + θ_b l on the bogies, l forward of the bogie's centre, above the wheelsets.
+    """
+    vehicle, bogies = model.vehicle, len(model.vehicle.bogies)
+    half = vehicle.body.length / 2
+    nodes = np.linspace(half, -half, model.body.segments + 1)
+    rows = model.output_rows([model.floor(x, "polygon", 0) for x in nodes.tolist()])["d"]
+    floor = rows @ mode.shape
+    heave, pitch = mode.shape[mode.shape.size - 2 * bogies :].reshape(bogies, 2).T
+    above = [heave[b] + pitch[b] * np.array([0.0, *bogie.wheelsets])
+             for b, bogie in enumerate(vehicle.bogies)]  # fmt: skip
+    every = np.concatenate([floor, *above])
+    size = np.abs(every)
+    largest = every[np.argmax(size > (1 - 1e-6) * size.max())]  # of equals the foremost: nose up
+    return ModeShape(nodes, *(np.real(part / largest) for part in (floor, heave, pitch)))
+
+
+def plot_modes(
+    model: VehicleModel, modes: Sequence[Mode] | None = None, *, count: int = 8
+) -> Figure:
+    """Draw the first mode shapes, each at the instant of its largest displacement.
+
+    modes : of the model, :func:`railride.modal.modes`, which finds them if they are not given.
+    count : how many of them to draw, from the lowest natural frequency up.
+
+    Raises InputError for a count below 1, and for modes of another model.
+    """
+    from railride.modal import modes as find
+
+    if isinstance(count, bool) or int(count) != count or count < 1:
+        raise InputError(f"count: found {count}; expected a whole number of at least 1")
+    drawn = (find(model) if modes is None else tuple(modes))[: int(count)]
+    size = len(model.lagrangian.coordinates)
+    if not drawn or any(mode.shape.size != size for mode in drawn):
+        raise InputError(f"modes: found {'none' if not drawn else 'shapes of another size'}; "
+                         f"expected modes of this model, of {size} coordinates")  # fmt: skip
+    columns = min(2, len(drawn))
+    rows = -(-len(drawn) // columns)
+    figure = canvas.new_figure(5.2 * columns, 2.0 * rows + 0.8)
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    for ax, mode in zip(grid.flat, drawn, strict=False):
+        _draw(ax, model.vehicle, mode_shape(model, mode))
+        ax.set_title(f"{mode.label}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}",
+                     **canvas.TITLE)  # fmt: skip
+    for ax in grid.flat[len(drawn) :]:
+        ax.remove()
+    for ax in grid.flat[max(0, len(drawn) - columns) : len(drawn)]:
+        ax.tick_params(labelbottom=True)
+        ax.set_xlabel("x, forward of the body's middle [m]")
+    handles, labels = grid.flat[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), frameon=False)
+    return figure
+
+
+def _draw(ax: Axes, vehicle: Vehicle, shape: ModeShape) -> None:
+    """The vehicle at rest as dashed lines, displaced in colour, its suspension as thin lines."""
+    rest: dict[str, Any] = {"color": canvas.REST, "linewidth": 1.0, "linestyle": "--"}
+    floor = _FLOOR + shape.floor
+    ax.plot(shape.nodes[[0, -1]], [_FLOOR, _FLOOR], **rest, label="at rest")
+    ax.fill_between(shape.nodes, floor, floor + _HEIGHT, color=canvas.BODY, alpha=0.15, linewidth=0)
+    ax.plot(shape.nodes, floor, color=canvas.BODY, linewidth=1.6, marker="o", markersize=3,
+            label="car body, nodes of its segments")  # fmt: skip
+    for b, bogie in enumerate(vehicle.bogies):
+        x, heave, pitch = bogie.position, shape.heave[b], shape.pitch[b]
+        ends = np.array([min(0.0, *bogie.wheelsets), max(0.0, *bogie.wheelsets)])
+        ax.plot(x + ends, [_BOGIE, _BOGIE], **rest)
+        held = float(np.interp(x, shape.nodes[::-1], floor[::-1]))
+        _suspension(ax, x, _BOGIE + heave, held)
+        for lever in bogie.wheelsets:
+            _suspension(ax, x + lever, _RAIL, _BOGIE + heave + pitch * lever)
+        ax.plot(x + ends, _BOGIE + heave + pitch * ends, color=canvas.BOGIE, linewidth=2.4,
+                label="bogies" if b == 0 else None)  # fmt: skip
+    ax.axhline(_RAIL, color=canvas.TRACK, linewidth=1.5, label="rail")
+    ax.set_ylim(_RAIL - 0.2, _FLOOR + _HEIGHT + 1.2)
+    ax.set_yticks([])
+    ax.spines[["top", "right", "left"]].set_visible(False)
+
+
+def _suspension(ax: Axes, x: float, low: float, high: float) -> None:
+    ax.plot([x, x], [low, high], color=canvas.TRACK, linewidth=0.7, linestyle=":", marker=None)

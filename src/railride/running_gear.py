@@ -1,0 +1,171 @@
+r"""The running gear: bogies on their suspensions, under any car body.
+
+Each bogie adds its heave z_b and pitch θ_b, and springs and dampers that act vertically:
+
+.. math:: T = \tfrac12 m_b \dot z_b^2 + \tfrac12 I_b \dot\theta_b^2, \quad
+          V = \tfrac12 k_2 s^2 + \sum_j \tfrac12 k_1 p_j^2, \quad
+          D = \tfrac12 c_2 \dot s^2 + \sum_j \tfrac12 c_1 \dot p_j^2
+
+.. math:: s = z_{body}(x_b) - z_b, \qquad p_j = z_b + l_j \sin\theta_b - w_j
+
+with the extension s of the secondary suspension and p_j of the primary suspension of wheelset j.
+Heights count from static equilibrium: preloads carry the weight. An actuator force f, positive when
+it pushes body and bogie apart, does the virtual work f δs.
+
+Source: Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Figure 2 and Table 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy import sin
+
+from railride.bodies import BodyModel, Parameter
+from railride.lagrange import Coordinate, Force, Input, Lagrangian
+from railride.numeric import Array
+from railride.parameters import Vehicle
+
+SYMBOLS = {
+    "mass": ("m_b", "bogie mass", "kg"),
+    "pitch_inertia": ("I_b", "bogie pitch inertia", "kg m^2"),
+    "primary_stiffness": ("k_1", "primary stiffness per axle", "N/m"),
+    "primary_damping": ("c_1", "primary damping per axle", "N s/m"),
+    "secondary_stiffness": ("k_2", "secondary stiffness per bogie", "N/m"),
+    "secondary_damping": ("c_2", "secondary damping per bogie", "N s/m"),
+}
+
+
+def bogie_heave(b: int) -> Coordinate:
+    """Height of bogie b's mass centre."""
+    return Coordinate(f"z_b{b}")
+
+
+def bogie_pitch(b: int) -> Coordinate:
+    """Pitch of bogie b."""
+    return Coordinate(f"theta_b{b}")
+
+
+def secondary_deflection(b: int) -> Coordinate:
+    """Extension of the secondary suspension over bogie b."""
+    return Coordinate(f"s_{b}")
+
+
+def primary_deflection(j: int) -> Coordinate:
+    """Extension of the primary suspension over wheelset j."""
+    return Coordinate(f"p_{j}")
+
+
+def wheelset_elevation(j: int) -> Input:
+    """Track elevation under wheelset j."""
+    return Input(f"w_{j}")
+
+
+def actuator(b: int) -> Force:
+    """Force of the actuator beside the secondary suspension over bogie b."""
+    return Force(f"f_{b}")
+
+
+@dataclass(frozen=True)
+class RunningGear:
+    """The bogies of a vehicle, numbered from the front as their wheelsets are.
+
+    What all bogies have alike is one symbol, k_2; what differs has one each, k_2_b1 and k_2_b2.
+    """
+
+    vehicle: Vehicle
+
+    @property
+    def bogies(self) -> range:
+        """The bogies' numbers."""
+        return range(1, len(self.vehicle.bogies) + 1)
+
+    def under(self, body: BodyModel) -> Lagrangian:
+        """The whole vehicle: a free body's energies and those of the bogies under it."""
+        free = body.energies
+        T, V, D = [free.kinetic], [free.potential], [free.dissipation]
+        kinematics = dict(free.kinematics)
+        for b, bogie in zip(self.bogies, self.vehicle.bogies, strict=True):
+            m_b, I_b, k_1, c_1, k_2, c_2 = (self.symbol(name, b) for name in SYMBOLS)
+            z, theta, s = bogie_heave(b), bogie_pitch(b), secondary_deflection(b)
+            kinematics[s] = body.height(self.place(b), bogie.position) - z
+            T += [m_b * z.dot**2 / 2, I_b * theta.dot**2 / 2]
+            V.append(k_2 * s**2 / 2)
+            D.append(c_2 * s.dot**2 / 2)
+            for j, lever in self.levers(b):
+                p = primary_deflection(j)
+                kinematics[p] = z + lever * sin(theta) - wheelset_elevation(j)
+                V.append(k_1 * p**2 / 2)
+                D.append(c_1 * p.dot**2 / 2)
+        own = [q(b) for b in self.bogies for q in (bogie_heave, bogie_pitch)]
+        wheelsets = range(1, len(self.vehicle.wheelset_positions) + 1)
+        return Lagrangian(
+            [*free.coordinates, *own],
+            sp.Add(*T),
+            sp.Add(*V),
+            sp.Add(*D),
+            inputs=[wheelset_elevation(j) for j in wheelsets],
+            forces=[actuator(b) for b in self.bogies],
+            virtual_work=[(actuator(b), secondary_deflection(b)) for b in self.bogies],
+            kinematics=kinematics,
+        )
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Each parameter of the bogies once, with its value."""
+        found: dict[sp.Symbol, Parameter] = {}
+        for b, bogie in zip(self.bogies, self.vehicle.bogies, strict=True):
+            for name, (_, meaning, unit) in SYMBOLS.items():
+                symbol = self.symbol(name, b)
+                found[symbol] = Parameter(symbol, meaning, unit, getattr(bogie, name))
+            places = [(self.place(b), "bogie position, from the body's middle", bogie.position)]
+            places += [
+                (lever, "wheelset position, from the bogie's centre", x)
+                for (_, lever), x in zip(self.levers(b), bogie.wheelsets, strict=True)
+            ]
+            for place, meaning, value in places:
+                for symbol in place.free_symbols:
+                    sign = int(place / symbol)
+                    found[symbol] = Parameter(symbol, meaning, "m", sign * value)
+        return tuple(found.values())
+
+    def symbol(self, name: str, b: int) -> sp.Symbol:
+        """The symbol of a bogie's parameter, a key of :data:`SYMBOLS`."""
+        symbol = SYMBOLS[name][0]
+        agree = len({getattr(bogie, name) for bogie in self.vehicle.bogies}) == 1
+        own = f"{symbol}{b}" if symbol.endswith("_b") else f"{symbol}_b{b}"
+        sign = {"nonnegative": True} if "damping" in name else {"positive": True}
+        return sp.Symbol(symbol if agree else own, **sign)
+
+    def place(self, b: int) -> sp.Expr:
+        """Bogie b's position: ±l_b for a mirrored pair, else a symbol of its own."""
+        return _places([bogie.position for bogie in self.vehicle.bogies], "l_b", "x_b")[b - 1]
+
+    def place_value(self, b: int, values: Mapping[str, Array]) -> Array | float:
+        """Bogie b's position at the values of the parameters, m."""
+        place = self.place(b)
+        return sum((int(place / s) * values[s.name] for s in place.free_symbols), start=0.0)
+
+    def levers(self, b: int) -> list[tuple[int, sp.Expr]]:
+        """The wheelsets of bogie b: number on the vehicle, and place on the bogie."""
+        wheelsets = self.vehicle.bogies[b - 1].wheelsets
+        own = "" if len({bogie.wheelsets for bogie in self.vehicle.bogies}) == 1 else f"_b{b}"
+        before = sum(len(bogie.wheelsets) for bogie in self.vehicle.bogies[: b - 1])
+        return list(enumerate(_places(wheelsets, f"l_w{own}", f"x_w{own}_"), start=before + 1))
+
+
+def _places(places: Sequence[float], mirrored: str, single: str) -> list[sp.Expr]:
+    """Places as symbols: 0, ± one symbol for a mirrored pair, or one symbol each."""
+    pairs = sorted({abs(x) for x in places if x and -x in places}, reverse=True)
+    found: list[sp.Expr] = []
+    for number, x in enumerate(places, start=1):
+        if not x:
+            found.append(sp.S.Zero)
+        elif abs(x) in pairs:
+            name = mirrored if len(pairs) == 1 else f"{mirrored}{pairs.index(abs(x)) + 1}"
+            found.append(sp.Symbol(name, positive=True) * (1 if x > 0 else -1))
+        else:
+            found.append(sp.Symbol(f"{single}{number}", real=True))
+    return found

@@ -1,0 +1,117 @@
+"""Every notebook runs from scratch, and is committed as it ran."""
+
+import os
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError
+
+import railride
+
+FOLDER = Path(__file__).parent.parent / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+SECONDS_PER_CELL = 300  # a notebook that hangs must end; it is no measure of speed
+
+# Jupyter's own libraries, not railride: what they will change, and sockets of a kernel just ended.
+pytestmark = []
+_unused = [
+    pytest.mark.filterwarnings("ignore::DeprecationWarning:(jupyter_client|jupyter_core|nbclient|zmq|tornado)"),
+    pytest.mark.filterwarnings("ignore:unclosed.*:ResourceWarning"),
+]  # fmt: skip
+
+
+def read(path: Path) -> nbformat.NotebookNode:
+    notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
+    return notebook
+
+
+def code_cells(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def in_text(notebook) -> list[str]:
+    """What the cells print as running text: every number that a reader is told."""
+    return [
+        output["data"]["text/markdown"]
+        for cell in code_cells(notebook)
+        for output in cell.outputs
+        if "text/markdown" in output.get("data", {})
+    ]
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Executes a notebook in an empty folder, against the railride under test."""
+    source = str(Path(railride.__file__).parents[1])
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([source, os.environ.get("PYTHONPATH", "")]))
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
+    folder = tmp_path / "work"
+    folder.mkdir()
+
+    def execute(notebook):
+        for cell in code_cells(notebook):
+            cell.outputs, cell.execution_count = [], None
+        client = NotebookClient(notebook, timeout=SECONDS_PER_CELL, kernel_name="python3",
+                                resources={"metadata": {"path": str(folder)}})  # fmt: skip
+        return client.execute()
+
+    return execute
+
+
+def test_there_are_notebooks():
+    assert NOTEBOOKS
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_runs_and_says_what_it_said(path, run):
+    """No cell fails, and every number in the running text is the committed one."""
+    committed = in_text(read(path))
+    assert in_text(run(read(path))) == committed
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_is_committed_as_it_ran(path):
+    cells = code_cells(read(path))
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert {output.output_type for output in outputs} <= {"execute_result", "display_data"}
+    kinds = {kind for output in outputs for kind in output.data}
+    assert {"text/latex", "text/markdown", "image/png"} <= kinds
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_holds_nothing_of_the_machine(path):
+    text = path.read_text(encoding="utf-8")
+    assert not re.search(r'"(?:/home/|/tmp/|/root/|/Users/|[A-Z]:\\\\)', text)
+    notebook = read(path)
+    assert notebook.metadata.kernelspec.name == "python3"
+    assert not any(cell.metadata for cell in notebook.cells)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_prose_tells_no_result(path):
+    """A decimal number in the prose would not follow the code: results come from cells."""
+    for cell in read(path).cells:
+        if cell.cell_type == "markdown":
+            prose = re.sub(r"\[[^]]*\]\([^)]*\)", "", cell.source)  # without links
+            assert not re.findall(r"\d\.\d", prose)
+
+
+def test_the_paper_and_the_free_body_in_the_first_notebook():
+    text = "\n".join(in_text(read(FOLDER / "01_the_papers_derivation.ipynb")))
+    assert "**4.79 Hz**; printed are 9.6 Hz" in text
+    assert "**9.586 Hz**" in text
+    assert "is 4 times that of Eq (4)" in text
+
+
+def test_a_failing_cell_fails_the_run(run):
+    notebook = nbformat.v4.new_notebook(
+        cells=[nbformat.v4.new_code_cell("1 / 0")],
+        metadata={"kernelspec": {"name": "python3", "display_name": "Python 3"}},
+    )
+    with pytest.raises(CellExecutionError, match="ZeroDivisionError"):
+        run(notebook)

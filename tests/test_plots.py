@@ -1,0 +1,345 @@
+"""Plots: what is drawn is what was computed, and nothing else is touched."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+from numpy.testing import assert_allclose, assert_array_equal
+
+from railride.errors import InputError
+from railride.modal import Mode, modes
+from railride.parameters import load_vehicle
+from railride.plots import (
+    plot_acceleration,
+    plot_modes,
+    plot_ride,
+    plot_track,
+    plot_track_overview,
+    plot_track_spectrum,
+    save,
+    save_ride_plots,
+)
+from railride.plots.canvas import outline
+from railride.plots.modes import mode_shape
+from railride.plots.rides import track_of, zoom_around_peak
+from railride.rides import Case, Record, RideResult
+from railride.spectra import spectrum
+from railride.track import Track, synthesise
+from railride.vehicle import derive_vehicle
+
+
+@cache
+def coach(segments):
+    return derive_vehicle(load_vehicle("cati2024"), segments=segments)
+
+
+def case(speed=40.0, position=0.0, seconds=5.0, **changes):
+    """A record at 100 Hz with 2 s of run-in, whose weighted value is largest at 3.00 s."""
+    time = np.arange(-200, round(100 * seconds) + 1) / 100
+    weighted = 0.1 * np.sin(20 * time)
+    weighted[np.flatnonzero(np.abs(time - 3) < 1e-9)] = -0.9
+    record = Record(time, 0.001 * np.cos(time), 2 * weighted, weighted, slice(200, time.size))
+    values = {"a_wrms_exact": 0.2345, "standard_error": 0.0123, "record": record}
+    return Case(speed, position, "segments", 4, 0.3456, 0.2222, **{**values, **changes})
+
+
+def result(*cases):
+    return RideResult("cati2024", "erri_low", "smooth", "Wk", cases)
+
+
+def texts(ax):
+    legend = ax.get_legend()
+    return [] if legend is None else [text.get_text() for text in legend.get_texts()]
+
+
+def line(ax, label):
+    return next(drawn for drawn in ax.lines if label in drawn.get_label())
+
+
+def test_track_is_drawn_in_millimetres_over_metres():
+    track = Track(120.0, 0.5, 0.001 * np.arange(6.0) ** 2, name="line 7")
+    ax = plot_track(track)
+    (level,) = ax.lines
+    assert_array_equal(level.get_xdata(), [120.0, 120.5, 121.0, 121.5, 122.0, 122.5])
+    assert_allclose(level.get_ydata(), [0, 1, 4, 9, 16, 25], rtol=1e-12)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("distance [m]", "longitudinal level [mm]")
+    assert ax.get_title(loc="left") == "line 7: r.m.s. 8.9 mm"  # √(979/6 − (55/6)²)
+    assert ax.get_xlim() == (120.0, 122.5)
+
+
+def test_track_spectrum_draws_estimate_spectrum_and_bands():
+    track, source = synthesise(spectrum("erri_low"), 500.0, 0.25, 3), spectrum("erri_low")
+    ax = plot_track_spectrum(track, source)
+    wavenumber, density = track.psd()
+    assert_array_equal(line(ax, "Welch").get_xdata(), wavenumber[1:])
+    assert_array_equal(line(ax, "Welch").get_ydata(), density[1:])
+    named = line(ax, "spectrum erri_low")
+    assert_allclose(named.get_ydata(), source.density(named.get_xdata()))
+    assert_allclose(named.get_xdata()[[0, -1]], wavenumber[[1, -1]])
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
+    assert "[rad/m]" in ax.get_xlabel()
+    assert "[m²/(rad/m)]" in ax.get_ylabel()
+    assert texts(ax)[2:] == ["D1, 3–25 m", "D2, 25–70 m"]
+    edges = [patch.get_extents().transformed(ax.transData.inverted()) for patch in ax.patches]
+    assert_allclose(
+        [[edge.x0, edge.x1] for edge in edges],
+        [[2 * np.pi / 25, 2 * np.pi / 3], [2 * np.pi / 70, 2 * np.pi / 25]],
+    )
+
+
+def test_wavelengths_stand_above_the_wavenumbers():
+    ax = plot_track_spectrum(synthesise(spectrum("erri_low"), 500.0, 0.25, 3))
+    (top,) = ax.child_axes
+    ax.figure.draw_without_rendering()
+    assert top.get_xlabel() == "wavelength [m]"
+    assert_allclose(sorted(top.get_xlim()), sorted(2 * np.pi / np.array(ax.get_xlim())))
+
+
+def test_spectrum_is_drawn_inside_its_own_band_alone():
+    track = synthesise(spectrum("sncf_good"), 500.0, 0.25, 3)
+    ax = plot_track_spectrum(track, spectrum("sncf_good"))
+    inside = line(ax, "spectrum").get_xdata()
+    assert_allclose(2 * np.pi / inside[[0, -1]], [40.0, 2.0])
+    # What leaks out of the band does not set the scale.
+    assert ax.get_ylim()[0] > 0.02 * line(ax, "spectrum").get_ydata().min()
+
+
+@pytest.mark.parametrize("level", [np.zeros(1000), np.array([0.0, 0.001, 0.002, 0.0])])
+def test_level_and_very_short_tracks_can_be_drawn(level, tmp_path):
+    save(plot_track_overview(Track(0.0, 0.5, level), spectrum("erri_low")), tmp_path / "a.png")
+    assert (tmp_path / "a.png").stat().st_size > 0
+
+
+def test_long_records_are_drawn_by_their_outline(tmp_path):
+    level = np.random.default_rng(1).standard_normal(1_000_000)
+    x, y = outline(np.arange(level.size, dtype=float), level)
+    assert x.size == y.size <= 50_000
+    assert (y.min(), y.max()) == (level.min(), level.max())
+    assert np.all(np.diff(x) >= 0)
+    save(plot_track(Track(0.0, 0.25, level)).figure, tmp_path / "long.png")
+
+
+def test_acceleration_is_the_rated_part_of_the_record():
+    shown = case()
+    ax = plot_acceleration(shown)
+    floor, weighted = ax.lines
+    record = shown.record
+    for drawn, values in ((floor, record.acceleration), (weighted, record.weighted)):
+        assert_array_equal(drawn.get_xdata(), record.time[200:])
+        assert_array_equal(drawn.get_ydata(), values[200:])
+    assert texts(ax) == ["floor, r.m.s. 0.346 m/s²", "weighted, r.m.s. 0.222 m/s²"]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time [s]", "acceleration [m/s²]")
+    assert ax.get_title(loc="left") == (
+        "144 km/h, x = 0 m: a_wrms 0.222 m/s² (exact 0.234, one run ± 0.012)"
+    )
+    assert weighted.get_linewidth() < floor.get_linewidth()
+    assert weighted.get_zorder() >= floor.get_zorder()
+
+
+def test_measured_track_has_no_exact_value_in_the_title():
+    ax = plot_acceleration(case(a_wrms_exact=None, standard_error=None))
+    assert ax.get_title(loc="left") == "144 km/h, x = 0 m: a_wrms 0.222 m/s²"
+
+
+def test_zoom_draws_its_second_alone():
+    ax = plot_acceleration(case(), zoom=(1.0, 2.0))
+    assert_allclose(ax.lines[0].get_xdata(), 1 + np.arange(101) / 100)
+    assert ax.get_xlim() == (1.0, 2.0)
+
+
+@pytest.mark.parametrize("zoom", [(2.0, 1.0), (6.0, 7.0), (1.0, 1.005), (np.nan, 2.0), (0, np.inf)])
+def test_zoom_that_shows_nothing_is_refused(zoom):
+    with pytest.raises(InputError, match=r"zoom: found .*expected two times"):
+        plot_acceleration(case(), zoom=zoom)
+
+
+def test_zoom_lies_about_the_largest_weighted_value_and_inside_the_record():
+    assert_allclose(zoom_around_peak(case()), (2.5, 3.5))
+    assert_allclose(zoom_around_peak(case(seconds=3.2)), (2.2, 3.2))
+    assert_allclose(zoom_around_peak(case(seconds=0.6)), (0.0, 0.6))
+
+
+def test_ride_has_a_row_for_each_case_and_a_second_beside_it():
+    figure = plot_ride(result(case(), case(speed=50.0, position=-4.0)))
+    first, second, third, fourth = figure.axes
+    assert third.get_title(loc="left").startswith("180 km/h, x = -4 m: a_wrms")
+    for left, right in ((first, second), (third, fourth)):
+        assert_allclose(left.get_xlim(), (0.0, 5.0))
+        assert_allclose(right.get_xlim(), (2.5, 3.5))
+        assert left.get_ylim() == right.get_ylim()
+        assert left.get_ylim()[1] > 1.8
+        assert [a.get_color() for a in left.lines] == [a.get_color() for a in right.lines]
+        assert len(texts(left)) == 2
+    assert figure.get_suptitle() == "cati2024 (4 segments) over erri_low, smooth floor, Wk weighted"
+
+
+def test_ride_without_a_record_cannot_be_drawn(tmp_path):
+    alone = case(record=None)
+    for draw in (plot_acceleration, lambda c: plot_ride(result(c))):
+        with pytest.raises(InputError, match="expected a time run"):
+            draw(alone)
+    with pytest.raises(InputError, match="expected a time run"):
+        save_ride_plots(result(alone), tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_given_axes_are_drawn_into_and_returned():
+    figure = Figure()
+    axes = figure.subplots(3)
+    track = synthesise(spectrum("erri_low"), 200.0, 0.25, 3)
+    assert plot_track(track, ax=axes[0]) is axes[0]
+    assert plot_track_spectrum(track, ax=axes[1]) is axes[1]
+    assert plot_acceleration(case(), ax=axes[2]) is axes[2]
+    assert len(figure.axes) == 3
+
+
+def test_track_under_the_leading_wheelset_counts_from_the_rated_section():
+    track = track_of(result(case()))
+    assert_allclose(track.distance, 40.0 * np.arange(501) / 100, atol=1e-9)
+    assert_allclose(track.level, 0.001 * np.cos(np.arange(501) / 100))
+    assert track.name == "erri_low"
+
+
+def test_ride_pictures_have_stable_names_and_the_right_size(tmp_path):
+    folder = tmp_path / "some" / "plots"
+    shown = result(case(), case(speed=145 / 3.6, position=-0.0), case(speed=52.1, position=-3.25))
+    paths = save_ride_plots(shown, folder)
+    assert [path.relative_to(folder).as_posix() for path in paths] == [
+        "track.png",
+        "acceleration_144kmh_0m.png",
+        "acceleration_145kmh_0m.png",
+        "acceleration_187.56kmh_-3.25m.png",
+        "ride.png",
+    ]
+    assert sorted(folder.iterdir()) == sorted(paths)
+    sizes = [imread(path).shape[:2] for path in paths]
+    assert sizes[0] == (420, 1050)  # 7 in × 2.8 in at 150 dots per inch
+    assert sizes[1] == (465, 1650)
+    assert sizes[-1] == (round(150 * (3 * 2.7 + 0.4)), 1650)
+
+
+def test_folder_that_cannot_be_made_is_said(tmp_path):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match=r"found that the folder cannot be made \("):
+        save_ride_plots(result(case()), tmp_path / "file" / "plots")
+
+
+def test_file_that_cannot_be_written_is_said(tmp_path):
+    figure = plot_track(Track(0.0, 1.0, np.zeros(4))).figure
+    with pytest.raises(InputError, match="expected a file that can be written"):
+        save(figure, tmp_path / "nowhere" / "a.png")
+
+
+@pytest.mark.parametrize("name", ["a.bmp", "a", ".png", "a.png.txt"])
+def test_other_suffixes_are_refused_with_the_list(tmp_path, name):
+    figure = plot_track(Track(0.0, 1.0, np.zeros(4))).figure
+    with pytest.raises(InputError, match=r"found .*suffix.*expected one of \.png, \.pdf, \.svg"):
+        save(figure, tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+DRAW = """
+import sys, numpy as np
+import railride.plots
+assert not any(name.startswith("matplotlib") for name in sys.modules), "loaded too early"
+from railride.plots import plot_track_overview, save
+from railride.spectra import spectrum
+from railride.track import synthesise
+source = spectrum("erri_low")
+for kind in ("png", "pdf", "SVG"):
+    save(plot_track_overview(synthesise(source, 300.0, 0.5, 1), source), sys.argv[1] + "." + kind)
+assert "matplotlib.pyplot" not in sys.modules, "pyplot"
+"""
+
+
+def test_files_are_the_same_on_every_run_and_pyplot_is_never_loaded(tmp_path):
+    running = [
+        subprocess.Popen(  # noqa: S603
+            [sys.executable, "-W", "error", "-c", DRAW, str(tmp_path / name)],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        )
+        for name, seed in (("a", "1"), ("b", "2"))
+    ]
+    assert [process.wait() for process in running] == [0, 0]
+    for kind, start in (("png", b"\x89PNG"), ("pdf", b"%PDF"), ("SVG", b"<?xml")):
+        one, other = ((tmp_path / f"{name}.{kind}").read_bytes() for name in "ab")
+        assert one == other, kind
+        assert one.startswith(start)
+
+
+def test_settings_stay_as_they_are(tmp_path):
+    before = dict(mpl.rcParams)
+    save_ride_plots(result(case()), tmp_path)
+    save(plot_modes(coach(2)), tmp_path / "modes.svg")
+    assert dict(mpl.rcParams) == before
+
+
+def test_mode_shapes_of_a_rigid_body_are_its_heave_and_pitch():
+    """Undamped and alone, heave lifts all of the body alike and pitch turns it about the middle."""
+    model = coach(1)
+    heave = Mode(1.0, 0.0, "heave", 1.0, 1j, np.array([0.5j, 0, 0, 0, 0, 0]))
+    pitch = Mode(1.0, 0.0, "pitch", 1.0, 1j, np.array([0, 0.5j, 0, 0, 0, 0]))
+    assert_allclose(mode_shape(model, heave).floor, [1, 1])
+    assert_allclose(mode_shape(model, pitch).floor, [1, -1])  # nose up
+    assert_allclose(mode_shape(model, pitch).nodes, [12, -12])
+
+
+def test_bogies_in_a_mode_shape_are_scaled_by_their_wheelsets_places():
+    rear = np.zeros(9, dtype=complex)
+    rear[7:] = 0.1, -0.2  # z_b2, theta_b2 after z_0..z_4, z_b1, theta_b1
+    shape = mode_shape(coach(4), Mode(1.0, 0.0, "", 1.0, 1j, rear))
+    assert_allclose(shape.floor, 0, atol=1e-15)
+    largest = 0.1 + 0.2 * 1.25  # at the rear wheelset, 1.25 m behind the centre
+    assert_allclose(shape.heave, [0, 0.1 / largest])
+    assert_allclose(shape.pitch, [0, -0.2 / largest])
+
+
+def test_bending_mode_is_that_of_a_free_beam():
+    """Ratio of middle to end of the first free-free mode of a uniform beam: −0.6078."""
+    model = coach(16)
+    bending = next(mode for mode in modes(model) if mode.label == "bending 1")
+    floor = mode_shape(model, bending).floor
+    assert_allclose(floor[8] / floor[0], -0.6078, atol=0.02)
+    assert_allclose(floor, floor[::-1], atol=1e-6)
+
+
+def test_modes_are_drawn_with_label_frequency_and_damping():
+    model = coach(4)
+    found = modes(model)
+    figure = plot_modes(model, found, count=5)
+    assert len(figure.axes) == 5
+    for ax, mode in zip(figure.axes, found, strict=False):
+        assert ax.get_title(loc="left") == (
+            f"{mode.label}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
+        )
+        body = line(ax, "car body")
+        assert_allclose(body.get_xdata(), [12, 6, 0, -6, -12])
+        assert np.ptp(body.get_ydata() - mode_shape(model, mode).floor) < 1e-12
+    assert [ax.get_xlabel() != "" for ax in figure.axes] == [False, False, False, True, True]
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "at rest", "car body, nodes of its segments", "bogies", "rail",
+    ]  # fmt: skip
+
+
+def test_modes_of_another_model_and_no_modes_are_refused():
+    with pytest.raises(InputError, match="shapes of another size"):
+        plot_modes(coach(4), modes(coach(2)))
+    with pytest.raises(InputError, match="found none"):
+        plot_modes(coach(4), [])
+    with pytest.raises(InputError, match="count: found 0"):
+        plot_modes(coach(4), count=0)
+
+
+def test_one_segment_is_called_a_rigid_body():
+    figure = plot_ride(result(replace(case(), segments=1)))
+    assert "(rigid body)" in figure.get_suptitle()
