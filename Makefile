@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP_INSTALL := install --quiet --disable-pip-version-check --constraint constraints.txt
 
-.PHONY: help ride test lint format bench clean
+.PHONY: help ride test lint format derivations bench clean
 .DEFAULT_GOAL := help
 
 help: ## List what there is to make
@@ -26,6 +26,12 @@ lint: $(VENV)/dev.stamp ## Check style, format and types
 format: $(VENV)/dev.stamp ## Mend what style and format checks can mend
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
+
+derivations: $(VENV)/test.stamp ## Make the pinned derivations again
+	$(BIN)/python -m railride derive --system half-body --format markdown \
+	  --output derivations/half_body.md
+	$(BIN)/python -m railride derive --system half-body-free --format markdown \
+	  --output derivations/half_body_free.md
 
 bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json
 	$(BIN)/python benchmarks/run.py

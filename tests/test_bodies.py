@@ -120,7 +120,7 @@ def test_a_graded_mass_that_would_be_negative_is_refused(ratio, offset):
     body = coach(pitch_inertia=ratio * 34e3 * 24**2 / 12, mass_centre=offset,
                  inertia="graded").body  # fmt: skip
     assert density(body).linspace(201, [-12, 12])[1].min() < 0
-    with pytest.raises(InputError, match="pitch_inertia.*kg/m"):
+    with pytest.raises(InputError, match=r"pitch_inertia.*kg/m"):
         SegmentedBody(body, 4)
 
 
@@ -146,7 +146,7 @@ def test_graded_mass_is_refused_exactly_where_it_turns_negative():
 @pytest.mark.parametrize("inertia", ["rods", "segments"])
 def test_equal_masses_are_refused_with_the_mass_centre_off_the_middle(inertia):
     """Equal segments have their mass centre at the middle: 0.5 m would be dropped in silence."""
-    with pytest.raises(InputError, match="mass centre|mass_centre"):
+    with pytest.raises(InputError, match=r"mass centre|mass_centre"):
         SegmentedBody(coach(inertia=inertia, mass_centre=0.5).body, 2)
 
 

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 import railride as rr
-from railride.halfbody import L_h, PAPER_VALUES, half_body, k_theta, m_h, positions, theta
+from railride.halfbody import PAPER_VALUES, L_h, half_body, k_theta, m_h, positions, theta
 from railride.linear import linearise
 
 

@@ -133,7 +133,7 @@ def test_nonlinear_equations_equal_those_of_sympy():
         ({"inputs": [w, w]}, ["w", "listed twice"]),
         ({"potential": k * (z - w) ** 2}, ["potential", "undeclared", "w", "inputs"]),
         ({"dissipation": c * (z.dot - w.dot) ** 2}, ["dissipation", "undeclared", "w"]),
-        ({"virtual_work": [(f, z)]}, ["virtual_work 1", "f", "forces"]),
+        ({"virtual_work": [(f, z)]}, ["force 1", "signal f", "forces"]),
         ({"potential": k * z * sp.Symbol("t")}, ["potential", "time t", "Input"]),
         ({"kinematics": {x: z.dot}}, ["kinematics of x", "rate"]),
         ({"kinematics": {z: k * z}}, ["z", "listed twice"]),

@@ -12,7 +12,7 @@ from vehicles import identical, paper_coach
 
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Force, Input, Lagrangian, rate
-from railride.linear import MATRICES, linear_output, linearise, linearise_equations
+from railride.linear import MATRICES, linearise, linearise_equations, output_rows
 from railride.parameters import load_vehicle
 from railride.vehicle import derive_vehicle
 
@@ -119,7 +119,8 @@ def test_bead_on_a_turning_hoop_off_its_lowest_point():
     """Rest at cos θ₀ = g/(R Ω²), stiffness m R² Ω² sin² θ₀: T depends on q alone as well."""
     T = m * R**2 * (theta.dot**2 + Omega**2 * sp.sin(theta) ** 2) / 2
     rest = sp.acos(g / (R * Omega**2))
-    linear = linearise(Lagrangian([theta], T, -m * g * R * sp.cos(theta), equilibrium={theta: rest}))
+    V = -m * g * R * sp.cos(theta)
+    linear = linearise(Lagrangian([theta], T, V, equilibrium={theta: rest}))
     assert identical(linear.K[0], m * R**2 * Omega**2 * (1 - (g / (R * Omega**2)) ** 2))
 
 
@@ -127,8 +128,8 @@ def test_foucaults_pendulum_has_a_skew_gyroscopic_matrix():
     y = Coordinate("y")
     T = m * ((x.dot - Omega * y) ** 2 + (y.dot + Omega * x) ** 2) / 2
     linear = linearise(Lagrangian([x, y], T, k * (x**2 + y**2) / 2))
-    assert linear.C == sp.Matrix([[0, -2 * m * Omega], [2 * m * Omega, 0]])
-    assert linear.K == sp.Matrix([[k - m * Omega**2, 0], [0, k - m * Omega**2]])
+    assert sp.Matrix([[0, -2 * m * Omega], [2 * m * Omega, 0]]) == linear.C
+    assert sp.Matrix([[k - m * Omega**2, 0], [0, k - m * Omega**2]]) == linear.K
 
 
 def test_a_follower_force_gives_an_unsymmetric_stiffness():
@@ -150,7 +151,7 @@ def test_refuses_a_point_that_is_no_equilibrium():
             way(hanging)
         assert "along x" not in str(raised.value)
     sagged = replace(hanging, equilibrium={z: -m * g / k})
-    assert linearise(sagged).K == sp.Matrix([[k, 0], [0, 2 * k]])
+    assert sp.Matrix([[k, 0], [0, 2 * k]]) == linearise(sagged).K
 
 
 def test_refuses_a_force_that_leaves_the_point_out_of_balance():
@@ -184,13 +185,32 @@ def test_columns_keep_the_order_of_the_inputs():
 
 
 def test_outputs_are_linear_in_what_they_feel():
-    p = Coordinate("p")
-    system = Lagrangian([theta], m * theta.dot**2 / 2, k * p**2 / 2, inputs=[w],
-                        kinematics={p: R * sp.sin(theta) - w})  # fmt: skip
-    assert linear_output(system, p) == {theta: R, w: -1}
-    assert linear_output(system, rate(rate(R * sp.sin(theta)))) == {theta.ddot: R}
-    with pytest.raises(InputError, match="signal z"):
-        linear_output(system, theta + z)
+    """About θ₀ = π/3: p = R sin θ - w, p̈ = R cos θ₀ θ̈, and a sensor that feels all but ẅ."""
+    p, f = Coordinate("p"), Force("f")
+    everything = 3 * theta.ddot * sp.cos(theta) + 5 * p.dot + c * f - 7 * w.dot + theta**2
+    system = Lagrangian(
+        [theta], m * theta.dot**2 / 2, k * (p + R * sp.sqrt(3) * (w - 1) / 2) ** 2 / 2, inputs=[w],
+        forces=[f], virtual_work=[(f, theta)], kinematics={p: R * sp.sin(theta) - w},
+        equilibrium={theta: sp.pi / 3}, outputs={"p": p, "all": everything},
+    )  # fmt: skip
+    half = sp.Rational(1, 2)
+    rows = output_rows(system)
+    assert rows["d"] == sp.Matrix([R * half, 2 * sp.pi / 3])
+    assert rows["v"] == sp.Matrix([0, 5 * R * half])
+    assert rows["a"] == sp.Matrix([0, 3 * half])
+    assert rows["w"] == sp.Matrix([-1, 0])
+    assert rows["dw"] == sp.Matrix([0, -12])
+    assert rows["f"] == sp.Matrix([0, c])
+    other = output_rows(system, {"rate": rate(rate(R * sp.sin(theta)))})
+    assert other["a"] == sp.Matrix([R * half])
+
+
+def test_outputs_that_cannot_be_are_refused():
+    system = Lagrangian([theta], m * theta.dot**2 / 2, k * (theta - w) ** 2, inputs=[w])
+    for output, word in ((theta + z, "z"), (theta.ddot + w.ddot, "second rate"),
+                         (abs(theta), "not smooth"), (theta.ddot.dot, "rate")):  # fmt: skip
+        with pytest.raises(InputError, match=word):
+            output_rows(system, {"sensor": output})
 
 
 def test_parameters_are_those_of_the_matrices():

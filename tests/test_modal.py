@@ -42,8 +42,8 @@ def test_modes_of_the_papers_coach_have_their_names(segments):
     bogie = [m for m in found if m.label == "bogie heave"]
     assert len(bogie) == len([m for m in found if m.label == "bogie pitch"]) == 2
     assert all(0.3 < m.damping_ratio < 0.45 for m in bogie)
-    # Two equal bogies move with and against each other: half of the energy is in either.
-    assert all(m.share > (0.45 if m in bogie else 0.8) for m in found)
+    # Two equal bogies move in any mixture with and against each other.
+    assert all(m.share > 0.9 for m in found if not m.label.startswith("bogie"))
 
 
 @pytest.mark.parametrize("segments", [1, 2, 5])
@@ -137,7 +137,7 @@ def test_overdamped_motions_are_listed_singly():
 
 @pytest.mark.parametrize("changes", [{"c_2": -70e3}, {"k_2": -750e3}, {"c_1": -3e3}])
 def test_an_unstable_vehicle_is_refused(changes):
-    with pytest.raises(InputError, match="unstable|no spring"):
+    with pytest.raises(InputError, match=r"unstable|no spring"):
         modes(paper_coach(2), **changes)
 
 

@@ -15,12 +15,6 @@ FOLDER = Path(__file__).parent.parent / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 SECONDS_PER_CELL = 300  # a notebook that hangs must end; it is no measure of speed
 
-# Jupyter's own libraries, not railride: what they will change, and sockets of a kernel just ended.
-pytestmark = [
-    pytest.mark.filterwarnings("ignore::DeprecationWarning:(jupyter_client|jupyter_core|nbclient|zmq|tornado)"),
-    pytest.mark.filterwarnings("ignore:unclosed.*:ResourceWarning"),
-]  # fmt: skip
-
 
 def read(path: Path) -> nbformat.NotebookNode:
     notebook = nbformat.read(path, as_version=4)

@@ -27,7 +27,8 @@ def test_names_and_shapes():
 def test_outputs_on_request_keep_their_order_and_names():
     model = paper_coach(2)
     chosen = ["secondary_2_deflection", model.floor(-3.0, "polygon", 1), "bogie_1_acceleration",
-              "primary_3_deflection", "floor_acceleration", model.floor(2.5, derivative=0)]  # fmt: skip
+              "primary_3_deflection", "floor_acceleration",
+              model.floor(2.5, derivative=0)]  # fmt: skip
     plant = state_space(model, chosen)
     assert plant.output_labels == [
         "secondary_2_deflection", "floor_velocity_at_-3m", "bogie_1_acceleration",
@@ -66,7 +67,8 @@ def test_elevations_alone_give_the_same_frequency_response(seed, segments):
     rates, elevation = (state_space(model, chosen, inputs=kind) for kind in ("rates", "elevation"))
     k = len(model.linear.inputs)
     assert elevation.input_labels == [*rates.input_labels[:k], *rates.input_labels[2 * k :]]
-    assert all(name.endswith("_less_track") for name in elevation.state_labels[rates.nstates // 2 :])
+    speeds = elevation.state_labels[rates.nstates // 2 :]
+    assert all(name.endswith("_less_track") for name in speeds)
     for omega in (0.7, 9.0, 60.0, 400.0):
         both, one = rates(1j * omega), elevation(1j * omega)
         w = both[:, :k] + 1j * omega * both[:, k : 2 * k]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from functools import cache
 
@@ -126,7 +127,7 @@ def assemble(vehicle, segments, k_theta=0.0, c_theta=0.0):
 
         mu = density(body)
         points, weights = np.polynomial.legendre.leggauss(6)
-        for front, rear in zip(nodes[:-1], nodes[1:], strict=True):
+        for front, rear in itertools.pairwise(nodes):
             for p, weight in zip(points, weights, strict=True):
                 x = (front + rear) / 2 + p * (front - rear) / 2
                 h = height(x)

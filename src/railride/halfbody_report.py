@@ -113,12 +113,12 @@ def _opening(free: bool, form: str) -> list[Block]:
     twin = f"`railride derive --system {SYSTEM[not free]} --format {form}`"
     return [
         Heading(f"The car body of two halves, {body}", 1),
-        Paragraph(f"Made by `railride derive --system {SYSTEM[free]} --format {form}`. Source: Çati, "
-                  "Düzgün, Kracht, Appl. Sci. 2024, 14, 3848 (CC BY 4.0), Section 2.3; numbers in "
-                  "brackets at the right are those of its equations"
+        Paragraph(f"Made by `railride derive --system {SYSTEM[free]} --format {form}`. Source: "
+                  "Çati, Düzgün, Kracht, Appl. Sci. 2024, 14, 3848 (CC BY 4.0), Section 2.3; "
+                  "numbers in brackets at the right are those of its equations"
                   + (", of which the free body's are the counterparts." if free else ".")),
-        Paragraph(f"Two slender rods, each of mass $m_h$ and length $L_h$, are joined at a hinge by a "
-                  rf"torsional spring $k_\theta$. {held} The other case is made by {twin}."),
+        Paragraph(f"Two slender rods, each of mass $m_h$ and length $L_h$, are joined at a hinge "
+                  rf"by a torsional spring $k_\theta$. {held} The other case is made by {twin}."),
     ]  # fmt: skip
 
 
@@ -126,14 +126,16 @@ def _positions(own: Derivation) -> list[Block]:
     r_F, r_R = positions(own.free)
     free = own.free
     points = [(name, f"${math(r[0])}$", f"${math(r[1])}$") for name, r in own.ends.items()]
-    lines = [rf"{name} & = {_vector(r)}" for name, r in ((r"\vec r_F", r_F), (r"\vec r_R", r_R))]
+    named = ((r"\vec r_F", r_F), (r"\vec r_R", r_R))
+    lines = [rf"{name} & = {_vector(r)}" for name, r in named]
+    rates = [rf"\dot{{{name[:-2]}}}{name[-2:]} & = {_vector(rate(r))}" for name, r in named]
     origin = "the mass centre" if free else "the front end"
     return [
         Heading("Coordinate"),
-        Paragraph(rf"One coordinate, $q = (\theta)$: the front half is turned by $\theta$, the rear "
-                  rf"half by $-\theta$, counted from the straight body. $x$ runs from the front to "
-                  f"the rear, $z$ up, and the origin is {origin}. There are no inputs and no forces: "
-                  "the body is alone."),
+        Paragraph(rf"One coordinate, $q = (\theta)$: the front half is turned by $\theta$, the "
+                  rf"rear half by $-\theta$, counted from the straight body. $x$ runs from the "
+                  f"front to the rear, $z$ up, and the origin is {origin}. There are no inputs and "
+                  "no forces: the body is alone."),
         Heading("Positions and velocities"),
         Paragraph(r"The middles of the halves, $\mathbf{i}$ along $x$ and $\mathbf{j}$ along $z$:"),
         Equation(rf"\begin{{aligned}} {lines[0]} \\ {lines[1]} \end{{aligned}}", _tag("1", free)),
@@ -141,8 +143,7 @@ def _positions(own: Derivation) -> list[Block]:
         Table(("point", "$x$", "$z$"), points),
         Paragraph(_momentum(own)),
         Paragraph("Velocities:"),
-        Equation(r"\begin{aligned} \dot{\vec r}_F & = "
-                 rf"{_vector(rate(r_F))} \\ \dot{{\vec r}}_R & = {_vector(rate(r_R))} \end{{aligned}}"),
+        Equation(rf"\begin{{aligned}} {rates[0]} \\ {rates[1]} \end{{aligned}}"),
     ]  # fmt: skip
 
 
@@ -197,14 +198,14 @@ def _linear(own: Derivation) -> list[Block]:
     rest = own.equation.subs({theta: 0, theta.dot: 0, theta.ddot: 0})
     return [
         Heading("Linear equation of motion"),
-        Paragraph(rf"At $\theta = 0$ and at rest the left-hand side is ${math(rest)}$: an equilibrium. "
-                  "About it"),
+        Paragraph(rf"At $\theta = 0$ and at rest the left-hand side is ${math(rest)}$: an "
+                  "equilibrium. About it"),
         Equation(r"M \ddot q + C \dot q + K q = 0, \qquad "
                  rf"M = \begin{{bmatrix}} {math(M)} \end{{bmatrix}}, \quad C = \begin{{bmatrix}} "
                  rf"{math(own.linear.C[0, 0])} \end{{bmatrix}}, \quad "
                  rf"K = \begin{{bmatrix}} {math(K)} \end{{bmatrix}}"),
-        Paragraph("($K_w$, $C_w$ and $B_f$ have no columns.) The matrices from the energies directly "
-                  "and those from the nonlinear equation are the same. Divided by $M$:"),
+        Paragraph("($K_w$, $C_w$ and $B_f$ have no columns.) The matrices from the energies "
+                  "directly and those from the nonlinear equation are the same. Divided by $M$:"),
         Equation(rf"\ddot\theta + {math(own.omega_squared)} \theta = 0", _tag("4", own.free)),
     ]  # fmt: skip
 
@@ -253,7 +254,7 @@ def _comparison(own: Derivation, other: Derivation) -> list[Block]:
 
 def _vector(r: sp.Matrix) -> str:
     """x i + z j, components that vanish left out."""
-    parts = []
+    parts: list[str] = []
     for component, unit in zip(r, (r"\mathbf{i}", r"\mathbf{j}"), strict=True):
         if component != 0:
             text = math(component)

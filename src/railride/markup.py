@@ -19,6 +19,7 @@ from sympy.printing.latex import LatexPrinter
 from railride.lagrange import Signal
 
 GREEK = ("theta", "zeta", "mu")
+BRACED = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}"  # with at most one pair inside
 LINE = 78  # characters of mathematics that fit on a line, commands counted as one
 
 
@@ -173,8 +174,7 @@ def tidy(latex: str) -> str:
 def width(latex: str) -> int:
     """About how many characters wide mathematics is on paper."""
     while True:
-        shorter = re.sub(r"\\frac\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}",
-                         lambda m: max(m.groups(), key=len), latex)  # fmt: skip
+        shorter = re.sub(rf"\\frac{BRACED}{BRACED}", lambda m: max(m.groups(), key=len), latex)
         if shorter == latex:
             break
         latex = shorter
@@ -185,8 +185,7 @@ def width(latex: str) -> int:
 
 def sum_lines(left: str, expression: sp.Expr, equals: str = "=") -> str:
     """``left = term + term …``, broken into lines where it is long."""
-    printer = Printer()
-    terms = [math(term) for term in printer._as_ordered_terms(expression)]
+    terms = [math(term) for term in sorted(sp.Add.make_args(expression), key=_term_key)]
     signed = [t if t.startswith("- ") else f"+ {t}" for t in terms]
     signed[0] = terms[0]
     lines = [""]

@@ -1,6 +1,6 @@
 r"""Derivations as documents: a vehicle's, and that of the paper's car body of two halves.
 
-Each reads like a textbook's, from the coordinates over T, V and D to the linear equations of motion,
+Each reads like a textbook's, from the coordinates over T, V and D to the linear equations
 
 .. math:: M \ddot q + C \dot q + K q = K_w w + C_w \dot w + B_f f ,
 
@@ -128,15 +128,14 @@ def _coordinates(model: VehicleModel) -> list[Block]:
     ]
     return [
         Heading("Coordinates, inputs and forces"),
-        Paragraph("$x$ points forward along the track from the middle of the car body, $z$ up; pitch "
-                  "is positive nose-up. Everything counts from static equilibrium, where preloads "
-                  "carry the weight, and is numbered from the front."),
+        Paragraph("$x$ points forward along the track from the middle of the car body, $z$ up; "
+                  "pitch is positive nose-up. Everything counts from static equilibrium, where "
+                  "preloads carry the weight, and is numbered from the front."),
         Table(("coordinate", "meaning", "unit"), rows),
-        Paragraph(f"The car body has {own} coordinates and each of the {bogies} bogies 2: {n} degrees "
-                  "of freedom."),
-        Paragraph(f"Inputs: the track elevations ${_listed(system.inputs)}$ under the wheelsets, m, "
-                  f"and their rates. Forces: ${_listed(system.forces)}$, N, one actuator to each "
-                  "bogie, positive when it pushes body and bogie apart."),
+        Paragraph(f"The car body has {own} coordinates and each bogie 2: {n} degrees of freedom."),
+        Paragraph(f"Inputs: the track elevations ${_listed(system.inputs)}$ under the wheelsets, "
+                  f"m, and their rates. Forces: ${_listed(system.forces)}$, N, one actuator to "
+                  "each bogie, positive when it pushes body and bogie apart."),
     ]  # fmt: skip
 
 
@@ -213,7 +212,7 @@ def _named_angles(u: sp.Expr, kinematics: Mapping[Coordinate, sp.Expr]) -> sp.Ex
 
 def _linear(linear: LinearModel) -> list[Block]:
     columns = {"K_w": linear.inputs, "C_w": linear.inputs, "B_f": linear.forces}
-    blocks = [
+    blocks: list[Block] = [
         Heading("Linear equations of motion"),
         Paragraph("At $q = 0$, $w = 0$, $f = 0$ every generalised force vanishes: the operating "
                   "point is an equilibrium, which is checked as the matrices are made. About it"),
@@ -223,9 +222,12 @@ def _linear(linear: LinearModel) -> list[Block]:
     ]  # fmt: skip
     for name, A in linear.matrices.items():
         blocks += _matrix(name, A, linear.coordinates, columns.get(name, linear.coordinates))
-    return [*blocks, Paragraph("A uniform lift of track and vehicle strains no spring and no damper: "
-                               "the numbers below meet $K u_0 = K_w 1$ and $C u_0 = C_w 1$, $u_0$ the "
-                               "coordinates of such a lift, or there would be no document.")]  # fmt: skip
+    lift = (
+        "A uniform lift of track and vehicle strains no spring and no damper: the numbers below "
+        "meet $K u_0 = K_w 1$ and $C u_0 = C_w 1$, $u_0$ the coordinates of such a lift, or there "
+        "would be no document."
+    )
+    return [*blocks, Paragraph(lift)]
 
 
 def _matrix(
@@ -301,8 +303,8 @@ def _modes(model: VehicleModel) -> list[Block]:
         Heading("Natural frequencies and modes"),
         Paragraph(r"From $(\lambda^2 M + \lambda C + K) \varphi = 0$: the frequency is "
                   r"$\vert\lambda\vert / 2\pi$, the damping ratio "
-                  r"$-\mathrm{Re} \lambda / \vert\lambda\vert$; a mode is named after the free motion "
-                  "that holds the given share of its kinetic energy."),
+                  r"$-\mathrm{Re} \lambda / \vert\lambda\vert$; a mode is named after the free "
+                  "motion that holds the given share of its kinetic energy."),
         Table(columns, rows, figures=columns[1:]),
         Paragraph(f"Undamped, from $K$ and $M$ alone: {undamped} Hz."),
     ]  # fmt: skip
@@ -311,7 +313,7 @@ def _modes(model: VehicleModel) -> list[Block]:
 def for_sympy(
     system: Lagrangian, linear: LinearModel, *, equations: bool, **more: Any
 ) -> list[Block]:
-    """The same mathematics as a JSON document of sympy's own strings; of matrices what is not zero."""
+    """The same mathematics as JSON of sympy's own strings; of a matrix what is not zero."""
     document: dict[str, Any] = {
         "coordinates": [q.name for q in system.coordinates],
         "inputs": [w.name for w in system.inputs],
@@ -328,8 +330,8 @@ def for_sympy(
     text = json.dumps(document | more, indent=1, ensure_ascii=False)
     return [
         Heading("For a program"),
-        Paragraph("The same as expressions that sympy reads; `_dot` is a rate, a matrix is its entries "
-                  "by row and column, counted from 0."),
+        Paragraph("The same as expressions that sympy reads; `_dot` is a rate, a matrix is its "
+                  "entries by row and column, counted from 0."),
         Code(text, "json"),
     ]  # fmt: skip
 

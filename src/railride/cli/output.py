@@ -75,8 +75,7 @@ def check_output(faults: Faults, option: str, path: str | None) -> None:
             faults.add(where, "a folder" if path else "no name", "the name of a file",
                        "name the file to be written")  # fmt: skip
         elif target.exists() and not target.is_file():
-            faults.add(where, "a device or a pipe", "the name of a file",
-                       "without --output the result goes to standard output")  # fmt: skip
+            return  # a device or a pipe, which is written to as it is
         elif not target.resolve().parent.is_dir():
             faults.add(where, f"no folder {str(target.parent)!r}", "one that exists",
                        "make it first")  # fmt: skip
@@ -94,7 +93,7 @@ def check_folder(faults: Faults, option: str, path: str | None) -> None:
     where, target = f"{option} {path!r}", Path(path)
     try:
         if not path or "\0" in path or (target.exists() and not target.is_dir()):
-            found = "a file" if path.strip("\0") == path else "a zero byte"
+            found = "a zero byte" if "\0" in path else "a file"
             faults.add(where, found if path else "no name", "a folder", "name another")
             return
         nearest = next(p for p in (target, *target.absolute().parents) if p.exists())
@@ -116,7 +115,7 @@ def write(text: str, path: str | None) -> None:
     if path is not None:
         from railride.files import write_text
 
-        write_text(Path(path).resolve(), text)  # of a link, the file it points to
+        write_text(path, text)
         return
     try:
         sys.stdout.write(text)
