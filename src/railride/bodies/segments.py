@@ -69,6 +69,11 @@ class SegmentedBody(BodyModel):
             )
         if self.inertia == "graded":
             self._check_graded()
+        elif self.body.mass_centre:
+            raise InputError(
+                f'body.inertia: found "{self.inertia}", equal masses, with the mass centre at '
+                f'{self.body.mass_centre:g} m; expected it at the middle (use "graded")'
+            )
         if self.inertia == "segments":
             self._check_own_inertia()
 
@@ -255,11 +260,6 @@ class SegmentedBody(BodyModel):
     def _check_own_inertia(self) -> None:
         body, N = self.body, self.number
         own = body.pitch_inertia / N - body.mass * body.length**2 * (N**2 - 1) / (12 * N**3)
-        if body.mass_centre:
-            raise InputError(
-                'body.inertia: found "segments", equal masses, with the mass centre at '
-                f'{body.mass_centre:g} m; expected it at the middle (use "graded")'
-            )
         if own <= 0:
             raise InputError(
                 f'body.inertia: found "segments", which needs {own:.4g} kg m^2 in each of {N} '
