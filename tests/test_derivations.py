@@ -8,10 +8,10 @@ import pytest
 import sympy as sp
 
 from railride.halfbody import half_body, k_theta, m_h
+from railride.halfbody_report import half_body_document
 from railride.lagrange import Lagrangian
 from railride.linear import linearise
 from railride.markup import markdown
-from railride.report import half_body_document
 
 FOLDER = Path(__file__).parent.parent / "derivations"
 PINNED = {"half_body.md": False, "half_body_free.md": True}

@@ -162,12 +162,7 @@ def test_refuses_a_force_that_leaves_the_point_out_of_balance():
     assert linearise(held).K.nnz() == 0
 
 
-UNFINISHED = pytest.mark.xfail(strict=True, reason="second rates are dropped yet")
-
-
-@pytest.mark.parametrize(
-    "way", [linearise, pytest.param(linearise_equations, marks=UNFINISHED)]
-)
+@pytest.mark.parametrize("way", [linearise, linearise_equations])
 def test_refuses_inputs_that_act_by_their_second_rate(way):
     carried = Lagrangian([z], m * (z.dot + w.dot) ** 2 / 2, k * z**2 / 2, inputs=[w])
     with pytest.raises(InputError, match="second rate"):

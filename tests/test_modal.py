@@ -137,7 +137,7 @@ def test_overdamped_motions_are_listed_singly():
 
 @pytest.mark.parametrize("changes", [{"c_2": -70e3}, {"k_2": -750e3}, {"c_1": -3e3}])
 def test_an_unstable_vehicle_is_refused(changes):
-    with pytest.raises(InputError, match=r"unstable|no spring"):
+    with pytest.raises(InputError, match=r"unstable|above 0"):
         modes(paper_coach(2), **changes)
 
 
@@ -156,7 +156,6 @@ def test_an_ill_conditioned_mass_matrix_is_refused():
         eigen(replace(m, M=M))
 
 
-@pytest.mark.xfail(strict=True, reason="told as a missing spring yet")
 def test_a_mass_next_to_nothing_is_told_as_that():
     """3 t written as 3e-9: it is the mass that is wrong, and no spring is missing."""
     with pytest.raises(InputError) as raised:

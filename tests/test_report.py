@@ -9,7 +9,7 @@ import sympy as sp
 from markdown_it import MarkdownIt
 
 from railride import derive_vehicle, load_vehicle, modes
-from railride.halfbody_report import Derivation
+from railride.halfbody_report import Derivation, half_body_document
 from railride.lagrange import Coordinate
 from railride.markup import (
     Code,
@@ -23,7 +23,7 @@ from railride.markup import (
     sum_lines,
     width,
 )
-from railride.report import command, half_body_document, number, vehicle_document
+from railride.report import command, number, vehicle_document
 
 
 @pytest.fixture(scope="module")

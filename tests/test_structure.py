@@ -52,14 +52,7 @@ def test_every_module_has_its_place():
     assert sorted(modules()) == sorted(ORDER)
 
 
-STAGES = [
-    pytest.param("report", marks=pytest.mark.xfail(strict=True, reason="imports halfbody_report"))
-    if stage == "report" else stage
-    for stage in ORDER
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("stage", ORDER)
 def test_imports_point_one_way_along_the_pipeline(stage):
     allowed = set(ORDER[: ORDER.index(stage) + 1]) | {"__version__", "KMH"}
     for path in modules()[stage]:

@@ -8,7 +8,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from railride.errors import Faults
+from railride.errors import Faults, InputError
 
 _MOST_LINKS = 40  # in a row, as Linux has it: beyond it they lead round in a circle
 
@@ -38,7 +38,14 @@ def data_path(*parts: str) -> Path:
 
 def write_text(path: str | Path, text: str) -> None:
     """Write a text file as :func:`write_bytes` does, as UTF-8 with line feeds."""
-    write_bytes(path, text.encode("utf-8"))
+    try:
+        content = text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise InputError(
+            f"{str(path)!r}: output file: found text that UTF-8 cannot hold, {error.reason}; "
+            "expected characters (a name with a damaged letter?)"
+        ) from None
+    write_bytes(path, content)
 
 
 def write_bytes(path: str | Path, content: bytes) -> None:

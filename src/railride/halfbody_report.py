@@ -19,7 +19,7 @@ from railride.halfbody import PAPER_VALUES, L_h, half_body, k_theta, m_h, positi
 from railride.lagrange import Lagrangian, rate
 from railride.linear import LinearModel, linearise, linearise_equations
 from railride.markup import Block, Equation, Heading, Paragraph, Table, math, sum_lines
-from railride.report import LAGRANGE, for_sympy, number
+from railride.report import LAGRANGE, for_sympy, number, render
 
 PRINTED_HZ = 9.6  # Table 1: first bending of the car body
 SYSTEM = {False: "half-body", True: "half-body-free"}
@@ -28,6 +28,14 @@ MEANING = {
     L_h: ("length of one half", "m"),
     k_theta: ("stiffness of the torsional spring", "N m/rad"),
 }
+
+
+def half_body_document(free: bool, form: str) -> str:
+    """The derivation of the paper's car body of two halves as "markdown" or "latex".
+
+    free: False for the paper's ends held at height zero, True for a body free in space.
+    """
+    return render(blocks(free, form), form)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ Source: H. Goldstein, Classical Mechanics, 2nd ed., Sections 1-4 and 1-5 (Eqs 1-
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
@@ -162,8 +163,12 @@ class Lagrangian:
     def _check(self) -> None:
         faults = Faults("Lagrangian")
         declared: list[Signal] = [*self.coordinates, *self.inputs, *self.forces, *self.kinematics]
-        for twice in sorted({s.name for s in declared if declared.count(s) > 1}):
-            faults.add(twice, "the same symbol listed twice", "each signal once")
+        names = [s.name for s in declared]
+        for twice in sorted({name for name in names if names.count(name) > 1}):
+            faults.add(twice, "a name listed twice", "a name of its own for each")
+        for s in self.equilibrium:
+            if s not in self.coordinates:
+                faults.add(f"equilibrium of {s}", "no coordinate", "values of coordinates")
         known = set(declared)
         # part → expression and the highest rate that may be in it
         parts = {"kinetic": (self.kinetic, 1), "potential": (self.potential, 0)}
@@ -237,7 +242,7 @@ def _scalar_work(pairs: Sequence[tuple[Any, Any]]) -> list[tuple[sp.Expr, sp.Exp
 
 
 def _written_out(
-    kinematics: Mapping[Coordinate, sp.Expr], wanted: Set[sp.Symbol]
+    kinematics: Mapping[Coordinate, sp.Expr], wanted: AbstractSet[sp.Symbol]
 ) -> dict[sp.Symbol, sp.Expr]:
     """Each kinematic name and its rates → an expression in coordinates and inputs alone.
 

@@ -102,7 +102,7 @@ def linearise(system: Lagrangian) -> LinearModel:
     Q = _force_derivatives(system, jets)
     q, w, f = system.coordinates, system.inputs, system.forces
     dq, dw = [s.dot for s in q], [s.dot for s in w]
-    _refuse_second_rates(T, dq, dw)
+    _refuse_second_rates([s for s in w if any(T.get((a, s.dot), 0) != 0 for a in dq)])
 
     def block(columns: Sequence[Signal], entry: Callable[[int, int], sp.Expr]) -> sp.Matrix:
         entries = {(i, j): entry(i, j) for i in range(len(q)) for j in range(len(columns))}
@@ -140,6 +140,7 @@ def linearise_equations(system: Lagrangian) -> LinearModel:
     point = dict(system.operating_point)
     point |= {s.dot: sp.S.Zero for s in (*q, *w)} | {s.ddot: sp.S.Zero for s in (*q, *w)}
     _refuse_residual({q[i]: r.xreplace(point) for i, r in enumerate(equations)})
+    _refuse_second_rates([s for s in w if any(r.has(s.ddot) for r in equations)])
 
     def block(columns: Sequence[Signal]) -> sp.Matrix:
         jacobian = equations.jacobian(columns) if columns else sp.zeros(len(q), 0)
@@ -241,12 +242,10 @@ def _refuse_residual(left: Mapping[Signal, sp.Expr]) -> None:
         )
 
 
-def _refuse_second_rates(T: Mapping[tuple[Signal, Signal], sp.Expr], dq: Sequence[Signal],
-                         dw: Sequence[Signal]) -> None:  # fmt: skip
-    acting = sorted({b.base.name for a in dq for b in dw if T.get((a, b), 0) != 0})
+def _refuse_second_rates(acting: Sequence[Input]) -> None:
     if acting:
         raise InputError(
-            f"inputs: found {', '.join(acting)} moving a mass together with a coordinate, so that "
-            "the second rate enters; expected inputs that act through springs and dampers (count "
-            "the coordinate from the ground instead of from the moving support)"
+            f"inputs: found {', '.join(s.name for s in acting)} moving a mass together with a "
+            "coordinate, so that the second rate enters; expected inputs that act through springs "
+            "and dampers (count the coordinate from the ground instead of from the moving support)"
         )

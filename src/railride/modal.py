@@ -31,7 +31,7 @@ class Mode:
 
     frequency_hz: |λ|/2π. damping_ratio: -Re λ/|λ|. eigenvalue: λ with Im λ ≥ 0, rad/s.
     shape: φ in the model's coordinates, complex, largest entry 1. label: what moves most.
-    share: the part of the mode's kinetic energy in the motion it is named after, 0 to 1.
+    share: the part of the mode's kinetic energy in motions of this name, 0 to 1.
     """
 
     frequency_hz: float
@@ -71,7 +71,7 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
             frequency_hz=float(abs(root) / (2 * np.pi)),
             damping_ratio=float(-root.real / abs(root)) if root else 0.0,
             label=labels[named[k]],
-            share=float(shares[named[k], k]),
+            share=float(sum(shares[i, k] for i, x in enumerate(labels) if x == labels[named[k]])),
             eigenvalue=complex(root),
             shape=shapes[:, k] / shapes[np.argmax(np.abs(shapes[:, k])), k],
         )

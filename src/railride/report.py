@@ -338,10 +338,3 @@ def for_sympy(
 
 def _listed(symbols: Sequence[sp.Symbol]) -> str:
     return ", ".join(math(s) for s in symbols)
-
-
-def half_body_document(free: bool, form: str) -> str:
-    """The paper's car body of two halves; see :mod:`railride.halfbody_report`."""
-    from railride.halfbody_report import blocks
-
-    return render(blocks(free, form), form)

@@ -28,6 +28,7 @@ from railride.weightings import Weighting
 
 TIME_CONSTANTS = 5  # of the slowest mode that matters, before the rated section
 LONGEST_RUN_IN = 10.0  # s
+MOST_SAMPLES = 1e7  # of one run: 0.6 GB of elevations and rates
 MATTERS = 1e-3  # of the weighted mean square: a mode with less may still be ringing
 
 
@@ -79,6 +80,12 @@ def time_run(
             f"need {speed * settling:.0f} m: the rated section begins before the ride has settled"
         )
     start = track.end - length
+    samples = (before + length) / speed * rate
+    if samples > MOST_SAMPLES:
+        raise InputError(
+            f"ride: found {samples:.2g} samples, {length:g} m at {3.6 * speed:g} km/h and {rate:g} "
+            f"a second; expected at most {MOST_SAMPLES:.0e} (a shorter length or another speed)"
+        )
     first, last = -int(np.floor(before / speed * rate)), int(np.floor(length / speed * rate))
     time = np.arange(first, last + 1) / rate
     delays = wheelset_delays(model, speed)

@@ -30,7 +30,8 @@ from railride.running_gear import (
     secondary_deflection,
 )
 
-HELD = 1e-13  # of the largest ω²: below it no spring holds the motion
+HELD = 1e-12  # of a matrix scaled to ones on its diagonal: below it no spring holds the motion
+SPREAD = 1e13  # of ω²: above it rounding decides the lowest frequencies
 
 
 @dataclass(frozen=True)
@@ -92,18 +93,17 @@ class VehicleModel:
             p.symbol.name: np.asarray(p.value, dtype=float) for p in self.parameters
         }
         dependent = [s.name for s in self.body.definitions] + ["k_theta", "c_theta"]
+        signs = {p.symbol.name: p.symbol for p in self.parameters}
         for name, value in changes.items():
             if name not in values and (name not in dependent or self.body.segments == 1):
                 known = ", ".join(sorted({*values, *(dependent if self.body.segments > 1 else ())}))
                 raise InputError(f"parameters: found {name!r}; expected one of {known}")
             values[name] = np.asarray(value, dtype=float)
-            if not np.isfinite(values[name]).all():
-                raise InputError(
-                    f"parameters: found {values[name]} for {name}; expected finite numbers"
-                )
+            _refuse_impossible(name, values[name], signs.get(name))
         for name, definition in self._definitions.items():
             if name not in changes:
                 values[name] = definition(values)[name][..., 0, 0]
+        self.body.check_values(values)
         if self.body.segments > 1:
             self._calibrate_joints(values)
         return values
@@ -168,7 +168,7 @@ class VehicleModel:
         values = self.values(**changes)
         self._refuse_moved_joints(values)
         matrices = Matrices(**self._numeric(values), lift=self.lift)
-        self._refuse_loose(matrices)
+        self._refuse_untrustworthy(matrices)
         return matrices
 
     @cached_property
@@ -196,7 +196,7 @@ class VehicleModel:
         if derivative not in kinds:
             raise InputError(f"derivative: found {derivative}; expected 0, 1 or 2")
         kind, unit = kinds[derivative]
-        name = f"floor_{kind}" if at == 0 else f"floor_{kind}_at_{at:g}m"
+        name = f"floor_{kind}" + _where(at) + ("_polygon" if reading == "polygon" else "")
         height = Coordinate("z_floor")
         symbol = (height, height.dot, height.ddot)[derivative]
         expression = self.body.floor(at, reading)
@@ -241,10 +241,11 @@ class VehicleModel:
 
     def _refuse_moved_joints(self, values: Mapping[str, Array]) -> None:
         """The heights that the bogies follow were taken on given segments: hold to them."""
-        if not isinstance(self.body, SegmentedBody):
-            return
         for b, bogie in enumerate(self.vehicle.bogies, start=1):
             place = self.running_gear.place_value(b, values)
+            if not isinstance(self.body, SegmentedBody):
+                self.body.check_point(float(np.max(np.abs(place))))
+                continue
             ahead = np.asarray((0.5 - place / values["L"]) * self.body.segments)
             here = self.body.segment_at(bogie.position)
             if (ahead < here - 1 - 1e-9).any() or (ahead > here + 1e-9).any():
@@ -254,19 +255,46 @@ class VehicleModel:
                     "vehicle)"
                 )
 
-    def _refuse_loose(self, matrices: Matrices) -> None:
-        """Refuse a vehicle some motion of which no spring holds."""
-        squares = symmetric_eigenvalues(matrices.M, matrices.K)
-        if (squares[..., 0] > HELD * squares[..., -1]).all():
-            return
-        which = int(np.argmin(squares[..., 0] / squares[..., -1]))
-        n = squares.shape[-1]
-        _, shapes = np.linalg.eigh(matrices.K.reshape(-1, n, n)[which])
-        q = self.lagrangian.coordinates[int(np.argmax(np.abs(shapes[:, 0])))]
-        raise InputError(
-            f"K: found a motion that no spring holds, mostly along {q}; expected a vehicle that "
-            "stands by itself (a bogie needs two wheelsets, or it can turn about one)"
-        )
+    def _refuse_untrustworthy(self, matrices: Matrices) -> None:
+        """Refuse a vehicle that a motion leaves without a spring, or that rounding would decide."""
+        q, n = self.lagrangian.coordinates, matrices.K.shape[-1]
+        K = matrices.K.reshape(-1, n, n)
+        scale = np.sqrt(np.maximum(np.diagonal(K, axis1=-2, axis2=-1), np.finfo(float).tiny))
+        held, shapes = np.linalg.eigh(K / (scale[:, :, np.newaxis] * scale[:, np.newaxis, :]))
+        if held[:, 0].min() < HELD:
+            loose = q[int(np.argmax(np.abs(shapes[int(np.argmin(held[:, 0])), :, 0])))]
+            raise InputError(
+                f"K: found a motion that no spring holds, mostly along {loose}; expected a vehicle "
+                "that stands by itself (a bogie needs two wheelsets, or it can turn about one)"
+            )
+        squares = symmetric_eigenvalues(matrices.M, matrices.K).reshape(-1, n)
+        spread = squares[:, -1] / squares[:, 0]
+        if spread.max() > SPREAD:
+            worst = int(np.argmax(spread))
+            ratio = np.diagonal(K[worst]) / np.diagonal(matrices.M.reshape(-1, n, n)[worst])
+            raise InputError(
+                f"M: found natural frequencies that differ by {np.sqrt(spread[worst]):.1e}, the "
+                f"highest mostly along {q[int(np.argmax(ratio))]}; expected less than "
+                f"{np.sqrt(SPREAD):.0e}, or rounding decides the lowest (a mass, inertia or "
+                "stiffness in the wrong unit?)"
+            )
+
+
+def _refuse_impossible(name: str, value: Array, symbol: sp.Symbol | None) -> None:
+    """Refuse a value that is not finite, or not positive where its symbol is."""
+    positive = symbol is not None and symbol.is_positive
+    fits = np.isfinite(value) & (value > 0) if positive else np.isfinite(value)
+    if not np.all(fits):
+        found = np.atleast_1d(value)[~np.atleast_1d(fits)][0]
+        expected = "finite numbers above 0" if positive else "finite numbers"
+        raise InputError(f"parameters: found {found} for {name}; expected {expected}")
+
+
+def _where(at: float) -> str:
+    """A point of the floor in an output's name, where no dot may stand: ``_2_5m_behind``."""
+    if at == 0:
+        return ""
+    return f"_{abs(at):.12g}m_{'ahead' if at > 0 else 'behind'}".replace(".", "_")
 
 
 def derive_vehicle(
@@ -301,13 +329,13 @@ def derive_vehicle(
     known = (body.bending_frequency, body.joint_stiffness, body.bending_stiffness)
     if segments is None:
         segments = 4 if any(value is not None for value in known) else 1
-    if isinstance(segments, bool) or int(segments) != segments or segments < 1:
-        raise InputError(f"segments: found {segments}; expected a whole number of at least 1")
+    if isinstance(segments, bool) or not isinstance(segments, int | np.integer) or segments < 1:
+        raise InputError(f"segments: found {segments!r}; expected a whole number of at least 1")
     vehicle, segments = replace(vehicle, body=body), int(segments)
     if segments > 1:
         return VehicleModel(vehicle, SegmentedBody(body, segments))
     given = {"bending frequency": bending_frequency, "joint stiffness": joint_stiffness,
              "bending damping": bending_damping}  # fmt: skip
     idle = [name for name, value in given.items() if value is not None]
-    remark = f"the {' and the '.join(idle)} given change nothing: the body is rigid"
+    remark = f"the body is rigid: {' and '.join(idle)} given with it without effect"
     return VehicleModel(vehicle, RigidBody(body), (remark,) if idle else ())

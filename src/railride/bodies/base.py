@@ -6,7 +6,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
@@ -68,6 +70,10 @@ class BodyModel(ABC):
     @abstractmethod
     def floor(self, at: float, reading: str) -> sp.Expr:
         """Height of the floor at ``at`` (m), read as ``reading``, one of :data:`FLOORS`."""
+
+    def check_values(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+        """Raise :class:`InputError` where parameters, changed ones too, need an impossible mass."""
+        del values
 
     def check_point(self, at: float) -> None:
         """Raise :class:`InputError` unless the point is on the body."""

@@ -16,7 +16,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import floor
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 from sympy import Rational, asin, cos, sin
 
 from railride.bodies.base import BodyModel, Parameter
@@ -25,7 +27,8 @@ from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
 
 L, k_theta, EI = sp.symbols("L k_theta EI", positive=True)
-c_theta, f_bending, zeta_bending, J_s = sp.symbols("c_theta f_bending zeta_bending J_s", real=True)
+f_bending, J_s = sp.symbols("f_bending J_s", positive=True)
+c_theta, zeta_bending = sp.symbols("c_theta zeta_bending", nonnegative=True)
 mu_0, mu_1, mu_2 = sp.symbols("mu_0 mu_1 mu_2", real=True)
 
 ROD_TOLERANCE = 0.05  # of I_c: within it the segments are equal rods
@@ -67,15 +70,16 @@ class SegmentedBody(BodyModel):
                 "expected a bending frequency or a joint stiffness (give one of them, or take "
                 "one segment: the rigid body)"
             )
-        if self.inertia == "graded":
-            self._check_graded()
-        elif self.body.mass_centre:
+        if self.inertia != "graded" and self.body.mass_centre:
             raise InputError(
                 f'body.inertia: found "{self.inertia}", equal masses, with the mass centre at '
                 f'{self.body.mass_centre:g} m; expected it at the middle (use "graded")'
             )
-        if self.inertia == "segments":
-            self._check_own_inertia()
+        if self.inertia != "rods":
+            own = {p.symbol: p.value for p in self.parameters}
+            for symbol, definition in self.definitions.items():
+                own[symbol] = float(definition.subs(own))
+            self.check_values({symbol.name: np.asarray(value) for symbol, value in own.items()})
 
     @property
     def segments(self) -> int:
@@ -241,27 +245,35 @@ class SegmentedBody(BodyModel):
         kappa_ell = (half + xi) * bend[0] + (half - xi) * bend[1]
         return polygon + kappa_ell * ell * (xi**2 / 2 - Rational(1, 24))
 
-    def _check_graded(self) -> None:
-        body = self.body
-        e, length = body.mass_centre, body.length
-        b = 180 * (body.pitch_inertia + body.mass * e**2 - body.mass * length**2 / 12) / length**5
-        a = body.mass / length - b * length**2 / 12
-        d = 12 * body.mass * e / length**3
-        places = [-length / 2, length / 2] + ([-d / (2 * b)] if b > 0 else [])
-        lowest = min(a + d * s + b * s**2 for s in places if abs(s) <= length / 2)
-        if lowest < 0:
+    def check_values(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+        """Refuse a mass per length or an inertia of the segments that is not positive."""
+        if self.inertia == "graded":
+            self._refuse_negative_mass(values)
+        if self.inertia == "segments" and not np.all(values["J_s"] > 0):
             raise InputError(
-                f"body.pitch_inertia: found {body.pitch_inertia:g} kg m^2 with the mass centre at "
-                f"{e:g} m, for which a graded mass per length falls to {lowest:.4g} kg/m; expected "
-                f"values nearer to a uniform body's {body.mass * length**2 / 12:.4g} kg m^2 (set "
-                'body.inertia to "rods" or "segments", or take one segment: the rigid body)'
+                f'body.inertia: found "segments", which needs {np.min(values["J_s"]):.4g} kg m^2 '
+                f"in each of {self.number} segments; expected a positive pitch inertia (use "
+                '"graded", or fewer segments)'
             )
 
-    def _check_own_inertia(self) -> None:
-        body, N = self.body, self.number
-        own = body.pitch_inertia / N - body.mass * body.length**2 * (N**2 - 1) / (12 * N**3)
-        if own <= 0:
+    def _refuse_negative_mass(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+        """μ(x) is lowest at an end, or where it has its minimum between them."""
+        a, b, half = values["mu_0"], values["mu_2"], values["L"] / 2
+        d = values.get("mu_1", np.zeros_like(a))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            minimum = np.where(b > 0, np.clip(-d / (2 * b), -half, half), half)
+        lowest = np.min([a + d * s + b * s**2 for s in (-half, half, minimum)])
+        if lowest < 0:
+            uniform = float(np.max(values["m_c"] * values["L"] ** 2 / 12))
             raise InputError(
-                f'body.inertia: found "segments", which needs {own:.4g} kg m^2 in each of {N} '
-                'segments; expected a positive pitch inertia (use "graded", or fewer segments)'
+                f"body.pitch_inertia: found {_values(values['I_c'])} kg m^2, for which a graded "
+                f"mass per length falls to {lowest:.4g} kg/m; expected a value nearer to a uniform "
+                f'body\'s {uniform:.4g} kg m^2 (set body.inertia to "rods" or "segments", or '
+                "take one segment: the rigid body)"
             )
+
+
+def _values(array: NDArray[np.float64]) -> str:
+    """A value, or the range of several."""
+    low, high = float(np.min(array)), float(np.max(array))
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"

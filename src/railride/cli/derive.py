@@ -103,9 +103,9 @@ def _write_half_body(
         given.faults.add("--nonlinear", f"--system {system} with it", "one of the two",
                          "its document has the nonlinear equations as it is")  # fmt: skip
     given.check()
-    from railride import report
+    from railride.halfbody_report import half_body_document
 
-    output.write(report.half_body_document(system == "half-body-free", form), to)
+    output.write(half_body_document(system == "half-body-free", form), to)
 
 
 def _as_text(model: VehicleModel, form: str, nonlinear: bool, remarks: list[str]) -> str:
