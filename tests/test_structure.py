@@ -18,7 +18,7 @@ SOURCE = Path(railride.__file__).parent
 ORDER = """
 errors files units toml_tables vehicle_data parameters
 lagrange jets linear halfbody numeric
-bodies running_gear vehicle modal statespace spectra frequency
+bodies running_gear vehicle firstorder modal statespace spectra frequency
 track trackfile response weightings scales comfort stochastic timerun rides
 markup text report halfbody_report plots cli derive __main__
 """.split()

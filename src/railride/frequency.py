@@ -19,6 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from railride.firstorder import first_order
 from railride.numeric import Array, Matrices
 from railride.spectra import check_speed
 from railride.vehicle import Output, VehicleModel
@@ -60,21 +61,18 @@ def solve_at(m: Matrices, omega: Array, force: Complex) -> Complex:
     """q of (K - ω² M + iω C) q = force at every ω: shapes (n, F) from (F,) and (n, F)."""
     from scipy.linalg import schur
 
-    n = m.M.shape[-1]
-    inverse = np.linalg.inv(m.M)
-    scale = np.sqrt(np.abs(inverse @ m.K).max())  # states (scale q, q̇) of like size
-    A = np.zeros((2 * n, 2 * n))
-    A[:n, n:] = scale * np.eye(n)
-    A[n:, :n] = -inverse @ m.K / scale
-    A[n:, n:] = -inverse @ m.C
-    T, Q = schur(A, output="complex")
-    y = Q[n:].conj().T @ (inverse @ force)
+    x = first_order(m)
+    n, states = x.q_x.shape
+    own = np.flatnonzero(x.inertial)
+    scale = np.ones(states)  # displacements times a typical ω are of the size of their rates
+    scale[:n] = np.sqrt(np.abs(x.a_x[own] @ x.q_x.T).max())
+    T, Q = schur(scale[:, np.newaxis] * x.A / scale, output="complex")
+    y = Q.conj().T @ (scale[:, np.newaxis] * (x.B @ force))
     s = 1j * omega
-    for i in range(2 * n - 1, -1, -1):
-        if i + 1 < 2 * n:
-            y[i] += T[i, i + 1 :] @ y[i + 1 :]
+    for i in range(states - 1, -1, -1):
+        y[i] += T[i, i + 1 :] @ y[i + 1 :]
         y[i] /= s - T[i, i]
-    return np.asarray(Q[:n] @ y / scale)
+    return np.asarray((x.q_x / scale) @ (Q @ y))
 
 
 def wheelset_delays(model: VehicleModel, speed: float) -> Array:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from railride.errors import InputError
+from railride.firstorder import first_order
 from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
@@ -58,9 +59,8 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     A = model.matrices(**changes)
     eigenvalues, vectors = eigen(A)
     refuse_unstable(eigenvalues)
-    n = A.M.shape[-1]
     kept = eigenvalues.imag >= 0
-    eigenvalues, shapes = eigenvalues[kept], vectors[:n, kept]
+    eigenvalues, shapes = eigenvalues[kept], first_order(A).q_x @ vectors[:, kept]
     order = np.argsort(np.abs(eigenvalues), kind="stable")
     eigenvalues, shapes = eigenvalues[order], shapes[:, order]
     labels, basis = free_motions(model, A)
@@ -81,31 +81,17 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
 
 def undamped_frequencies(A: Matrices) -> Array:
     """Natural frequencies from K and M alone, Hz, ascending: shape (..., n)."""
-    return np.asarray(np.sqrt(np.maximum(symmetric_eigenvalues(A.M, A.K), 0)) / (2 * np.pi))
+    return np.asarray(np.sqrt(np.maximum(symmetric_eigenvalues(*A.condensed), 0)) / (2 * np.pi))
 
 
 def eigen(A: Matrices) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Eigenvalues (2n,) and eigenvectors (2n, 2n) of x' = A x, x = (q, q̇).
+    """Eigenvalues (s,) and eigenvectors (s, s) of x' = A x (see :mod:`railride.firstorder`).
 
     Raises
     ------
     InputError : several vehicles at once; a mass matrix too ill-conditioned to be trusted.
     """
-    if A.M.ndim != 2:
-        raise InputError("modes: found arrays of parameters; expected one vehicle at a time")
-    scale = 1 / np.sqrt(np.diagonal(A.M))
-    condition = np.linalg.cond(scale[:, np.newaxis] * A.M * scale)
-    if condition > 1e12:
-        raise InputError(
-            f"M: found a mass matrix of condition {condition:.1e}; expected below 1e12 (masses and "
-            "inertias of very different size: check their units)"
-        )
-    n = A.M.shape[-1]
-    system = np.zeros((2 * n, 2 * n))
-    system[:n, n:] = np.eye(n)
-    system[n:, :n] = -np.linalg.solve(A.M, A.K)
-    system[n:, n:] = -np.linalg.solve(A.M, A.C)
-    roots, vectors = np.linalg.eig(system)
+    roots, vectors = np.linalg.eig(first_order(A).A)
     return roots.astype(complex), vectors.astype(complex)
 
 

@@ -80,6 +80,8 @@ class MatrixFunction:
 class Matrices:
     """M, C, K (..., n, n), K_w, C_w (..., n, wheelsets) and B_f (..., n, bogies) as numbers, SI.
 
+    A coordinate without mass, the point between a damper and its mount, has zero rows in M.
+
     Raises
     ------
     InputError : M, C or K not symmetric, M not positive definite, or a uniform lift that strains:
@@ -94,6 +96,24 @@ class Matrices:
     B_f: Array
     lift: Array
 
+    @property
+    def inertial(self) -> NDArray[np.bool_]:
+        """Which coordinates carry mass, (n,): the others have zero rows in M."""
+        return np.asarray((self.M != 0).any(axis=-1).reshape(-1, self.M.shape[-1]).any(axis=0))
+
+    @property
+    def condensed(self) -> tuple[Array, Array]:
+        """M and K of the coordinates that carry mass, the others following without dampers.
+
+        K_II - K_Im K_mm⁻¹ K_mI: what is left of the springs where nothing dampens.
+        """
+        own = self.inertial
+        if own.all():
+            return self.M, self.K
+        M, K_II = self.M[..., own, :][..., own], self.K[..., own, :][..., own]
+        K_Im, K_mm = self.K[..., own, :][..., ~own], self.K[..., ~own, :][..., ~own]
+        return M, K_II - K_Im @ np.linalg.solve(K_mm, np.swapaxes(K_Im, -1, -2))
+
     def __post_init__(self) -> None:
         for name in ("M", "C", "K", "K_w", "C_w", "B_f"):
             if not np.isfinite(getattr(self, name)).all():
@@ -105,7 +125,7 @@ class Matrices:
                 raise InputError(f"{name}: found a matrix that is not symmetric; expected "
                                  "springs and dampers between pairs of points")  # fmt: skip
         try:
-            np.linalg.cholesky(self.M)
+            np.linalg.cholesky(self.condensed[0])
         except np.linalg.LinAlgError:
             raise InputError("M: found a mass matrix that is not positive definite; expected "
                              "positive masses and inertias") from None  # fmt: skip

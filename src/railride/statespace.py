@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.errors import InputError
+from railride.firstorder import first_order
 from railride.numeric import Array
 from railride.vehicle import Output, VehicleModel
 
@@ -55,18 +56,16 @@ def system_arrays(
         raise InputError(f"inputs: found {inputs!r}; expected one of {', '.join(INPUTS)}")
     chosen = chosen_outputs(model, outputs)
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
-    if m.M.ndim != 2:
-        raise InputError("parameters: found arrays; expected one vehicle at a time")
-    n, q = m.M.shape[-1], [s.name for s in model.linear.coordinates]
-    inverse = np.linalg.inv(m.M)
+    x = first_order(m)
+    q = [model.linear.coordinates[k].name for k in x.order]
+    dq = [q.name for q, own in zip(model.linear.coordinates, x.inertial, strict=True) if own]
     force = np.hstack([m.K_w, m.C_w, m.B_f])  # columns u = (w, ẇ, f)
-    A = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ m.K, -inverse @ m.C]])
-    B = np.vstack([np.zeros_like(force), inverse @ force])
-    C = np.hstack([Y["d"], Y["v"]]) + Y["a"] @ A[n:]
-    D = np.hstack([Y["w"], Y["dw"], Y["f"]]) + Y["a"] @ B[n:]
+    A, B = x.A, x.B @ force
+    C = Y["d"] @ x.q_x + Y["v"] @ x.v_x + Y["a"] @ x.a_x
+    D = np.hstack([Y["w"], Y["dw"], Y["f"]]) + (Y["v"] @ x.v_f + Y["a"] @ x.a_f) @ force
     w, f = [s.name for s in model.linear.inputs], [s.name for s in model.linear.forces]
     rates = [f"d{name}" for name in w]
-    states = [*q, *(f"d{name}" for name in q)]
+    states = [*q, *(f"d{name}" for name in dq)]
     if inputs == "elevation":
         k = len(w)
         _refuse_direct_rates(D[:, k : 2 * k], D, [o.name for o in chosen])
@@ -76,7 +75,7 @@ def system_arrays(
         B[:, :k] += A @ G
         D[:, :k] += C @ G
         rates = []
-        states = [*q, *(f"d{name}_less_track" for name in q)]
+        states = [*q, *(f"d{name}_less_track" for name in dq)]
     return System(A, B, C, D, tuple(states), (*w, *rates, *f), tuple(o.name for o in chosen))
 
 

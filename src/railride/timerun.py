@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from railride.errors import InputError
+from railride.firstorder import first_order
 from railride.frequency import wheelset_delays
 from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
@@ -96,7 +97,7 @@ def time_run(
     at_rest = np.linalg.solve(m.K, m.K_w @ np.stack([u[: len(w), 0], u[len(w) :, 0]], axis=-1))
     response = simulate(
         system.A, system.B[:, passive], system.C, system.D[:, passive], u, 1 / rate,
-        x0=at_rest.T.ravel(),
+        x0=first_order(m).state(*at_rest.T),
     )  # fmt: skip
     return Run(speed, time, w[0], response.outputs, slice(-first, time.size), tuple(remarks))
 

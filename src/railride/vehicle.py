@@ -267,14 +267,17 @@ class VehicleModel:
                 f"K: found a motion that no spring holds, mostly along {loose}; expected a vehicle "
                 "that stands by itself (a bogie needs two wheelsets, or it can turn about one)"
             )
-        squares = symmetric_eigenvalues(matrices.M, matrices.K).reshape(-1, n)
+        M, stiffness = matrices.condensed
+        own = np.flatnonzero(matrices.inertial)
+        squares = symmetric_eigenvalues(M, stiffness).reshape(-1, own.size)
         spread = squares[:, -1] / squares[:, 0]
         if spread.max() > SPREAD:
             worst = int(np.argmax(spread))
-            ratio = np.diagonal(K[worst]) / np.diagonal(matrices.M.reshape(-1, n, n)[worst])
+            of = (-1, own.size, own.size)
+            ratio = np.diagonal(stiffness.reshape(of)[worst]) / np.diagonal(M.reshape(of)[worst])
             raise InputError(
                 f"M: found natural frequencies that differ by {np.sqrt(spread[worst]):.1e}, the "
-                f"highest mostly along {q[int(np.argmax(ratio))]}; expected less than "
+                f"highest mostly along {q[own[int(np.argmax(ratio))]]}; expected less than "
                 f"{np.sqrt(SPREAD):.0e}, or rounding decides the lowest (a mass, inertia or "
                 "stiffness in the wrong unit?)"
             )
