@@ -156,9 +156,9 @@ def linearise_equations(system: Lagrangian) -> LinearModel:
 def output_rows(
     system: Lagrangian, outputs: Mapping[str, sp.Expr] | None = None
 ) -> dict[str, sp.ImmutableSparseMatrix]:
-    r"""Outputs about the operating point, y = Y_a q̈ + Y_v q̇ + Y_d q + Y_w w + Y_dw ẇ + Y_f f.
+    r"""Outputs, y = Y_a q̈ + Y_v q̇ + Y_d q + Y_w w + Y_dw ẇ + Y_ddw ẅ + Y_f f, linearised.
 
-    They count from their values there, as the coordinates do.
+    They count from their values at the operating point, as the coordinates do.
 
     Parameters
     ----------
@@ -166,25 +166,19 @@ def output_rows(
 
     Returns
     -------
-    dict : "a", "v", "d" (outputs, coordinates), "w", "dw" (outputs, inputs), "f" (outputs, forces).
+    dict : "a", "v", "d" (outputs, coordinates), "w", "dw", "ddw" (outputs, inputs), "f" (outputs,
+        forces).
 
     Raises
     ------
-    InputError : a signal that the system does not have; an output that is not smooth, or that
-        feels the second rate of an input.
+    InputError : a signal that the system does not have; an output that is not smooth.
     """
     system = system if outputs is None else replace(system, outputs=outputs)
     jets = Jets(system.operating_point, system.kinematics)
     gradients = {name: jets.gradient(sp.sympify(u)) for name, u in system.outputs.items()}
     q, w = system.coordinates, system.inputs
-    for name, gradient in gradients.items():
-        if any(s.ddot in gradient for s in w):
-            raise InputError(
-                f"output {name}: found that it feels the second rate of an input; expected inputs "
-                "and their rates alone"
-            )
     columns = {"a": [s.ddot for s in q], "v": [s.dot for s in q], "d": q}
-    columns |= {"w": w, "dw": [s.dot for s in w], "f": system.forces}
+    columns |= {"w": w, "dw": [s.dot for s in w], "ddw": [s.ddot for s in w], "f": system.forces}
     return {
         rows: sp.ImmutableSparseMatrix(
             [[g.get(s, sp.S.Zero) for s in of] for g in gradients.values()]

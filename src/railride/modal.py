@@ -23,6 +23,7 @@ from railride.firstorder import first_order
 from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
+DAMPER = "damper"  # label of a real eigenvalue: a damper relaxing on its elastic mount
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
 
 
@@ -66,12 +67,13 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     labels, basis = free_motions(model, A)
     shares = _energy_shares(A.M, basis, shapes)
     named = _assign(shares, oscillating=eigenvalues.imag > 0)
+    names = [DAMPER if k is None else labels[k] for k in named]
     return tuple(
         Mode(
             frequency_hz=float(abs(root) / (2 * np.pi)),
             damping_ratio=float(-root.real / abs(root)) if root else 0.0,
-            label=labels[named[k]],
-            share=float(sum(shares[i, k] for i, x in enumerate(labels) if x == labels[named[k]])),
+            label=names[k],
+            share=float(sum(shares[i, k] for i, x in enumerate(labels) if x == names[k])),
             eigenvalue=complex(root),
             shape=shapes[:, k] / shapes[np.argmax(np.abs(shapes[:, k])), k],
         )
@@ -110,19 +112,19 @@ def refuse_unstable(eigenvalues: NDArray[np.complex128]) -> None:
 def free_motions(model: VehicleModel, A: Matrices) -> tuple[list[str], Array]:
     """Labels, and shapes as columns, of the free body's and the bogies' motions."""
     n, bogies = A.M.shape[-1], len(model.vehicle.bogies)
-    own = n - 2 * bogies
+    inertial = int(A.inertial.sum())
+    own = inertial - 2 * bogies
     labels = ["heave", "pitch", *(f"bending {k}" for k in range(1, own - 1))]
-    basis = np.eye(n)
+    basis = np.eye(n)[:, :inertial]
     basis[:own, :own] = _free_body_shapes(model, A.M[:own, :own])
     return labels + ["bogie heave", "bogie pitch"] * bogies, basis
 
 
 def _free_body_shapes(model: VehicleModel, M: Array) -> Array:
     """Heave, pitch about the mass centre, and the bending shapes, as columns."""
-    if model.body.segments == 1:
-        return np.eye(len(M))  # the coordinates are heave and pitch of the mass centre
     heave = model.lift[: len(M)]
-    x = np.linspace(0.5, -0.5, len(M))  # nodes from the front
+    # Pitch: of a rigid body its second coordinate, else the nodes in line, from the front.
+    x = np.array([0.0, 1.0]) if model.body.segments == 1 else np.linspace(0.5, -0.5, len(M))
     pitch = x - heave * (heave @ M @ x) / (heave @ M @ heave)
     K = model.free_body_stiffness()
     inverse = np.linalg.inv(np.linalg.cholesky(M))
@@ -138,17 +140,19 @@ def _energy_shares(M: Array, basis: Array, shapes: NDArray[np.complex128]) -> Ar
     return np.asarray(shares / shares.sum(axis=0))
 
 
-def _assign(shares: Array, oscillating: NDArray[np.bool_]) -> list[int]:
+def _assign(shares: Array, oscillating: NDArray[np.bool_]) -> list[int | None]:
     """The motion after which each mode is named: largest shares first, none given away twice.
 
     Each motion has two eigenvalues to give: an oscillating mode takes both, a real one takes one.
+    What is left over is the relaxation of a damper on its mount.
     """
     left = np.full(shares.shape[0], 2)
     need = np.where(oscillating, 2, 1)
-    named = [-1] * shares.shape[1]
-    for flat in np.argsort(-shares, axis=None, kind="stable"):
+    named: list[int | None] = [None] * shares.shape[1]
+    oscillating_first = np.where(oscillating, -shares, 1 - shares)
+    for flat in np.argsort(oscillating_first, axis=None, kind="stable"):
         motion, mode = divmod(int(flat), shares.shape[1])
-        if named[mode] < 0 and left[motion] >= need[mode]:
+        if named[mode] is None and left[motion] >= need[mode]:
             named[mode] = motion
             left[motion] -= need[mode]
-    return [k if k >= 0 else int(np.argmax(shares[:, j])) for j, k in enumerate(named)]
+    return named

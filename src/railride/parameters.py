@@ -1,10 +1,10 @@
 """Parameter files: a vehicle from TOML, with a unit on every value, and back.
 
 A file has the top-level keys ``name``, ``source`` and ``remarks``; a table ``[body]``; a table
-``[bogie]`` of what all bogies share; and one table ``[[bogies]]`` for each, from the front, with
-its ``position`` and whatever differs. The keys are the fields of :class:`CarBody` and
-:class:`Bogie`, the values ``"number unit"``. Any table may explain itself: ``note`` and ``source``
-are texts, ``notes`` a table of texts by key.
+``[bogie]`` of what all bogies share; one table ``[[bogies]]`` for each, from the front, with its
+``position`` and whatever differs; and a table ``[[payload]]`` for each load, if any. The keys are
+the fields of :class:`CarBody`, :class:`Bogie` and :class:`Load`, the values ``"number unit"``. Any
+table may explain itself: ``note`` and ``source`` are texts, ``notes`` a table of texts by key.
 """
 
 from __future__ import annotations
@@ -22,9 +22,13 @@ from railride.toml_tables import Table, read_toml, shown, toml_text
 from railride.vehicle_data import (
     Bogie,
     CarBody,
+    Load,
     Vehicle,
     check_arrangement,
     check_body,
+    check_load,
+    check_mounts,
+    check_payload,
     check_texts,
     check_wheelsets,
 )
@@ -32,6 +36,7 @@ from railride.vehicle_data import (
 __all__ = [
     "Bogie",
     "CarBody",
+    "Load",
     "Vehicle",
     "load_vehicle",
     "shipped_vehicles",
@@ -92,8 +97,10 @@ def _read_vehicle(path: Path) -> Vehicle:
     check_texts(path.stem if name is None else name, source or "", remarks, faults)
     body = _read_body(top, faults)
     bogies = _read_bogies(top, faults)
+    payload = _read_payload(top, faults)
     top.finish()
     check_arrangement(body, bogies, faults)
+    check_payload(body, payload, faults)
     faults.raise_if_any()
     return Vehicle(
         name=path.stem if name is None else name,
@@ -101,6 +108,7 @@ def _read_vehicle(path: Path) -> Vehicle:
         bogies=tuple(Bogie(**bogie) for bogie in bogies),
         source=source or "",
         remarks=remarks,
+        payload=tuple(Load(**load) for load in payload),
     )
 
 
@@ -138,6 +146,7 @@ def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
         own = _values(table, all_of_them)
         table.finish()
         check_wheelsets(own, table.key(""), faults)
+        check_mounts(shared | own, table.key(""), faults)
         bogies.append(shared | own)
     for item in all_of_them:
         if item.default is not MISSING or (common is not None and item.name in common):
@@ -148,6 +157,19 @@ def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
         for where in without:
             _note_missing(where, item, faults)
     return bogies
+
+
+def _read_payload(top: Table, faults: Faults) -> list[dict[str, Any]]:
+    """Values of each of ``[[payload]]``."""
+    loads = []
+    for table in top.tables("payload"):
+        load = _values(table, fields(Load))
+        table.finish()
+        if "mass" not in table:
+            _note_missing(table.key("mass"), fields(Load)[0], faults)
+        check_load(load, table.key(""), faults)
+        loads.append(load)
+    return loads
 
 
 def _values(table: Table, items: Sequence[Field[Any]]) -> dict[str, Any]:
@@ -189,10 +211,12 @@ def to_toml(vehicle: Vehicle) -> str:
     own = [item for item in fields(Bogie) if item not in shared]
     for bogie in vehicle.bogies:
         lines += ["", "[[bogies]]", *_lines(bogie, own)]
+    for load in vehicle.payload:
+        lines += ["", "[[payload]]", *_lines(load, fields(Load))]
     return "\n".join(lines) + "\n"
 
 
-def _lines(record: CarBody | Bogie, items: Sequence[Field[Any]]) -> list[str]:
+def _lines(record: CarBody | Bogie | Load, items: Sequence[Field[Any]]) -> list[str]:
     """``key = value`` for each field that does not have its default."""
     lines = []
     for item in items:

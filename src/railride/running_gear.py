@@ -8,6 +8,9 @@ Each bogie adds its heave z_b and pitch θ_b, and springs and dampers that act v
 
 .. math:: s = z_{body}(x_b) - z_b, \qquad p_j = z_b + l_j \sin\theta_b - w_j
 
+A damper on an elastic mount k_d (Maxwell's element) has a stroke d of its own, a coordinate without
+mass, and adds ½ k_d (s - d)² to V and ½ c_2 ḋ² to D in place of ½ c_2 ṡ².
+
 with the extension s of the secondary suspension and p_j of the primary suspension of wheelset j.
 Heights count from static equilibrium: preloads carry the weight. An actuator force f, positive when
 it pushes body and bogie apart, does the virtual work f δs.
@@ -37,6 +40,12 @@ SYMBOLS = {
     "secondary_damping": ("c_2", "secondary damping per bogie", "N s/m"),
 }
 
+OPTIONAL = {
+    "wheelset_mass": ("m_w", "wheelset mass", "kg"),
+    "primary_damper_stiffness": ("k_d1", "primary damper's mount, per axle", "N/m"),
+    "secondary_damper_stiffness": ("k_d2", "secondary damper's mount, per bogie", "N/m"),
+}
+
 
 def bogie_heave(b: int) -> Coordinate:
     """Height of bogie b's mass centre."""
@@ -56,6 +65,16 @@ def secondary_deflection(b: int) -> Coordinate:
 def primary_deflection(j: int) -> Coordinate:
     """Extension of the primary suspension over wheelset j."""
     return Coordinate(f"p_{j}")
+
+
+def secondary_stroke(b: int) -> Coordinate:
+    """Stroke of the secondary damper over bogie b, where its mount is elastic."""
+    return Coordinate(f"d_s{b}")
+
+
+def primary_stroke(j: int) -> Coordinate:
+    """Stroke of the primary damper over wheelset j, where its mount is elastic."""
+    return Coordinate(f"d_p{j}")
 
 
 def wheelset_elevation(j: int) -> Input:
@@ -93,13 +112,17 @@ class RunningGear:
             kinematics[s] = body.height(self.place(b), bogie.position) - z
             T += [m_b * z.dot**2 / 2, I_b * theta.dot**2 / 2]
             V.append(k_2 * s**2 / 2)
-            D.append(c_2 * s.dot**2 / 2)
+            stroke = self._stroke("secondary_damper_stiffness", b, s, secondary_stroke(b), V)
+            D.append(c_2 * stroke.dot**2 / 2)
             for j, lever in self.levers(b):
                 p = primary_deflection(j)
                 kinematics[p] = z + lever * sin(theta) - wheelset_elevation(j)
                 V.append(k_1 * p**2 / 2)
-                D.append(c_1 * p.dot**2 / 2)
-        own = [q(b) for b in self.bogies for q in (bogie_heave, bogie_pitch)]
+                stroke = self._stroke("primary_damper_stiffness", b, p, primary_stroke(j), V)
+                D.append(c_1 * stroke.dot**2 / 2)
+        loads = zip(self.load_symbols, self.vehicle.payload, strict=True)
+        T += [body.load_energy(mass, load) for mass, load in loads]
+        own = [q(b) for b in self.bogies for q in (bogie_heave, bogie_pitch)] + self.strokes
         wheelsets = range(1, len(self.vehicle.wheelset_positions) + 1)
         return Lagrangian(
             [*free.coordinates, *own],
@@ -117,9 +140,10 @@ class RunningGear:
         """Each parameter of the bogies once, with its value."""
         found: dict[sp.Symbol, Parameter] = {}
         for b, bogie in zip(self.bogies, self.vehicle.bogies, strict=True):
-            for name, (_, meaning, unit) in SYMBOLS.items():
-                symbol = self.symbol(name, b)
-                found[symbol] = Parameter(symbol, meaning, unit, getattr(bogie, name))
+            for name, (_, meaning, unit) in (SYMBOLS | OPTIONAL).items():
+                if getattr(bogie, name) is not None:
+                    symbol = self.symbol(name, b)
+                    found[symbol] = Parameter(symbol, meaning, unit, getattr(bogie, name))
             places = [(self.place(b), "bogie position, from the body's middle", bogie.position)]
             places += [
                 (lever, "wheelset position, from the bogie's centre", x)
@@ -129,14 +153,49 @@ class RunningGear:
                 for symbol in place.free_symbols:
                     sign = int(place / symbol)
                     found[symbol] = Parameter(symbol, meaning, "m", sign * value)
+        for mass, load in zip(self.load_symbols, self.vehicle.payload, strict=True):
+            found[mass] = Parameter(mass, "payload", "kg", load.mass)
         return tuple(found.values())
 
+    @property
+    def load_symbols(self) -> list[sp.Symbol]:
+        """The masses of the loads: m_p, or m_p1, m_p2 …"""
+        loads = len(self.vehicle.payload)
+        names = ["m_p"] if loads == 1 else [f"m_p{k}" for k in range(1, loads + 1)]
+        return [sp.Symbol(name, positive=True) for name in names]
+
+    @property
+    def strokes(self) -> list[Coordinate]:
+        """The strokes of dampers on elastic mounts: of each bogie's secondary, then its primary."""
+        found = []
+        for b, bogie in zip(self.bogies, self.vehicle.bogies, strict=True):
+            if bogie.secondary_damper_stiffness is not None:
+                found.append(secondary_stroke(b))
+            if bogie.primary_damper_stiffness is not None:
+                found += [primary_stroke(j) for j, _ in self.levers(b)]
+        return found
+
+    def wheel_load(self, b: int, j: int) -> sp.Expr:
+        """Dynamic wheel load of wheelset j on bogie b, N: m_w ẅ - k_1 p - c_1 ḋ, d = p or stroke."""
+        k_1, c_1 = self.symbol("primary_stiffness", b), self.symbol("primary_damping", b)
+        p, m_w = primary_deflection(j), self.symbol("wheelset_mass", b)
+        stroke = primary_stroke(j) if primary_stroke(j) in self.strokes else p
+        return m_w * wheelset_elevation(j).ddot - k_1 * p - c_1 * stroke.dot
+
+    def _stroke(self, mount: str, b: int, extension: Coordinate, stroke: Coordinate,
+                V: list[sp.Expr]) -> Coordinate:  # fmt: skip
+        """What the damper sees of an extension; its mount's energy is added to V."""
+        if getattr(self.vehicle.bogies[b - 1], mount) is None:
+            return extension
+        V.append(self.symbol(mount, b) * (extension - stroke) ** 2 / 2)
+        return stroke
+
     def symbol(self, name: str, b: int) -> sp.Symbol:
-        """The symbol of a bogie's parameter, a key of :data:`SYMBOLS`."""
-        symbol = SYMBOLS[name][0]
+        """The symbol of a bogie's parameter, a key of :data:`SYMBOLS` or :data:`OPTIONAL`."""
+        symbol = (SYMBOLS | OPTIONAL)[name][0]
         agree = len({getattr(bogie, name) for bogie in self.vehicle.bogies}) == 1
         own = f"{symbol}{b}" if symbol.endswith("_b") else f"{symbol}_b{b}"
-        sign = {"nonnegative": True} if "damping" in name else {"positive": True}
+        sign = {"nonnegative": True} if name.endswith("damping") else {"positive": True}
         return sp.Symbol(symbol if agree else own, **sign)
 
     def place(self, b: int) -> sp.Expr:

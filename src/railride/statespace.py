@@ -56,6 +56,7 @@ def system_arrays(
         raise InputError(f"inputs: found {inputs!r}; expected one of {', '.join(INPUTS)}")
     chosen = chosen_outputs(model, outputs)
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
+    _refuse_second_rates(Y["ddw"], chosen)
     x = first_order(m)
     q = [model.linear.coordinates[k].name for k in x.order]
     dq = [q.name for q, own in zip(model.linear.coordinates, x.inertial, strict=True) if own]
@@ -134,6 +135,17 @@ def chosen_outputs(
         else:
             chosen.append(known[output] or model.floor())
     return chosen
+
+
+def _refuse_second_rates(rows: Array, outputs: Sequence[Output]) -> None:
+    """Refuse outputs that feel the second rate of the elevation, as a wheel load does."""
+    named = [o.name for o, row in zip(outputs, rows, strict=True) if row.any()]
+    if named:
+        raise InputError(
+            f"outputs: found {', '.join(named)}, which feel the second rate of the track elevation "
+            "through the wheelsets' mass; expected outputs that elevations and rates determine "
+            "(take them in the frequency domain, where the low-pass that they need is stated)"
+        )
 
 
 def _refuse_direct_rates(direct: Array, D: Array, outputs: Sequence[str]) -> None:

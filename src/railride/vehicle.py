@@ -206,7 +206,11 @@ class VehicleModel:
 
     @cached_property
     def outputs(self) -> dict[str, Output]:
-        """Outputs by name: each bogie's acceleration, every suspension deflection, body ends."""
+        """Outputs by name: each bogie's acceleration, every suspension deflection, wheel loads.
+
+        The dynamic wheel load counts from the static one, and is there where the wheelset's mass is
+        known. It feels the second rate of the elevation: only the frequency domain holds it.
+        """
         found = []
         for b in self.running_gear.bogies:
             z, s = bogie_heave(b), secondary_deflection(b)
@@ -215,19 +219,18 @@ class VehicleModel:
             for j, _ in self.running_gear.levers(b):
                 p = primary_deflection(j)
                 found.append(Output(f"primary_{j}_deflection", p, "m", sp.latex(p)))
+                if self.vehicle.bogies[b - 1].wheelset_mass is not None:
+                    load = self.running_gear.wheel_load(b, j)
+                    found.append(Output(f"wheel_load_{j}", load, "N", f"Q_{{{j}}}"))
         return {output.name: output for output in found}
 
     def output_rows(self, outputs: Sequence[Output], **changes: ArrayLike) -> dict[str, Array]:
-        """Rows of y = Y_a q̈ + Y_v q̇ + Y_d q + Y_w w + Y_dw ẇ + Y_f f, one per output.
+        """Rows of y = Y_a q̈ + Y_v q̇ + Y_d q + Y_w w + Y_dw ẇ + Y_ddw ẅ + Y_f f, one per output.
 
         Returns
         -------
-        dict : "a", "v", "d" (..., outputs, n), "w", "dw" (..., outputs, wheelsets), "f"
+        dict : "a", "v", "d" (..., outputs, n), "w", "dw", "ddw" (..., outputs, wheelsets), "f"
             (..., outputs, bogies).
-
-        Raises
-        ------
-        InputError : an output that feels the second rate of an input.
         """
         chosen = tuple(outputs)
         if chosen not in self._rows:

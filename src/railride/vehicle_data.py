@@ -80,6 +80,8 @@ class Bogie:
     primary_stiffness: k_1, N/m, and primary_damping: c_1, N s/m, both per axle.
     secondary_stiffness: k_2, N/m, and secondary_damping: c_2, N s/m, both per bogie.
     wheelset_mass: kg, of one wheelset; it matters for contact forces only.
+    primary_damper_stiffness, secondary_damper_stiffness: N/m, of the elastic mounts in series with
+    the dampers, per axle and per bogie; without one the damper's mount is rigid.
 
     Raises InputError, with all faults at once, for values that no bogie can have.
     """
@@ -93,10 +95,33 @@ class Bogie:
     secondary_stiffness: float = field(metadata=_si("N/m", "> 0"))
     secondary_damping: float = field(metadata=_si("N s/m", ">= 0"))
     wheelset_mass: float | None = field(default=None, metadata=_si("kg", "> 0"))
+    primary_damper_stiffness: float | None = field(default=None, metadata=_si("N/m", "> 0"))
+    secondary_damper_stiffness: float | None = field(default=None, metadata=_si("N/m", "> 0"))
 
     def __post_init__(self) -> None:
         faults = Faults("bogie")
         check_wheelsets(_checked_numbers(self, faults), "", faults)
+        check_mounts(vars(self), "", faults)
+        faults.raise_if_any()
+
+
+@dataclass(frozen=True)
+class Load:
+    """Payload: a mass on the car body, spread evenly from ``rear`` to ``front``.
+
+    mass: kg. front, rear: m forward of the body's middle; neither: over the whole body; equal: in
+    one point. The bending frequency is that of the body without it.
+
+    Raises InputError, with all faults at once, for values that no load can have.
+    """
+
+    mass: float = field(metadata=_si("kg", "> 0"))
+    front: float | None = field(default=None, metadata=_si("m"))
+    rear: float | None = field(default=None, metadata=_si("m"))
+
+    def __post_init__(self) -> None:
+        faults = Faults("payload")
+        check_load(_checked_numbers(self, faults), "", faults)
         faults.raise_if_any()
 
 
@@ -105,6 +130,7 @@ class Vehicle:
     """A car body on its bogies, from the front.
 
     name: one line. source: where the values come from. remarks: what a user of them must know.
+    payload: what is added to the empty car body.
 
     Raises InputError, with all faults at once, where the parts do not fit together: fewer than
     two bogies (the body would tip), a bogie outside the body, bogies or wheelsets out of order.
@@ -115,10 +141,11 @@ class Vehicle:
     bogies: tuple[Bogie, ...]
     source: str = ""
     remarks: tuple[str, ...] = ()
+    payload: tuple[Load, ...] = ()
 
     def __post_init__(self) -> None:
         faults = Faults(f"vehicle {shown(self.name)}")
-        for name in ("bogies", "remarks"):
+        for name in ("bogies", "remarks", "payload"):
             value = getattr(self, name)
             if isinstance(value, Sequence) and not isinstance(value, str):
                 object.__setattr__(self, name, tuple(value))
@@ -131,8 +158,12 @@ class Vehicle:
         for i, bogie in enumerate(self.bogies, 1):
             if not isinstance(bogie, Bogie):
                 faults.add(f"bogies[{i}]", shown(bogie), "a Bogie")
+        for i, load in enumerate(self.payload, 1):
+            if not isinstance(load, Load):
+                faults.add(f"payload[{i}]", shown(load), "a Load")
         faults.raise_if_any()
         check_arrangement(vars(self.body), [vars(bogie) for bogie in self.bogies], faults)
+        check_payload(vars(self.body), [vars(load) for load in self.payload], faults)
         faults.raise_if_any()
 
     @property
@@ -146,7 +177,7 @@ class Vehicle:
         return tuple(bogie.position + x for bogie in self.bogies for x in bogie.wheelsets)
 
 
-def _checked_numbers(record: CarBody | Bogie, faults: Faults) -> dict[str, Any]:
+def _checked_numbers(record: CarBody | Bogie | Load, faults: Faults) -> dict[str, Any]:
     """Make the numbers of ``record`` floats; return the good ones, noting the faults of others."""
     good: dict[str, Any] = {}
     for item in fields(record):
@@ -221,6 +252,44 @@ def check_wheelsets(values: Mapping[str, Any], prefix: str, faults: Faults) -> N
             "wheelsets from the front, each at its own place",
             "positions are counted forward from the bogie's centre",
         )
+
+
+def check_mounts(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
+    """Note an elastic mount where there is no damper."""
+    for suspension in ("primary", "secondary"):
+        mount = values.get(f"{suspension}_damper_stiffness")
+        if mount is not None and values.get(f"{suspension}_damping") == 0:
+            faults.add(
+                f"{prefix}{suspension}_damper_stiffness",
+                f"{mount:g} N/m in series with no damping",
+                f"a {suspension}_damping above 0",
+                "leave the mount out where there is no damper",
+            )
+
+
+def check_load(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
+    """Note ends of a load that do not belong together."""
+    front, rear = values.get("front"), values.get("rear")
+    if (front is None) != (rear is None):
+        faults.add(f"{prefix}{'front' if front is None else 'rear'}", "nothing",
+                   "both ends of the load, or neither for the whole body")  # fmt: skip
+    elif front is not None and rear is not None and rear > front:
+        faults.add(f"{prefix}rear", f"{rear:g} m, ahead of the front at {front:g} m",
+                   "a place behind the front, or at it")  # fmt: skip
+
+
+def check_payload(
+    body: Mapping[str, Any], loads: Sequence[Mapping[str, Any]], faults: Faults
+) -> None:
+    """Note loads that lie outside the car body."""
+    length = body.get("length")
+    for i, load in enumerate(loads, 1):
+        for end in ("front", "rear"):
+            place = load.get(end)
+            if length is not None and place is not None and abs(place) > length / 2:
+                faults.add(f"payload[{i}].{end}", f"{place:g} m",
+                           f"a place on the body, at most {length / 2:g} m from its "
+                           "middle")  # fmt: skip
 
 
 def check_texts(name: object, source: object, remarks: Sequence[object], faults: Faults) -> None:

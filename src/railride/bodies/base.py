@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
-from railride.parameters import CarBody
+from railride.parameters import CarBody, Load
 
 FLOORS = ("smooth", "polygon")
 
@@ -62,6 +62,10 @@ class BodyModel(ABC):
     @abstractmethod
     def lift(self) -> Mapping[Coordinate, int]:
         """The coordinates of a uniform lift by 1 m."""
+
+    @abstractmethod
+    def load_energy(self, mass: sp.Symbol, load: Load) -> sp.Expr:
+        """Kinetic energy of a load: ``mass`` spread evenly from its rear to its front."""
 
     @abstractmethod
     def height(self, x: sp.Expr, at: float) -> sp.Expr:

@@ -9,7 +9,8 @@ import sympy as sp
 from sympy import cos, sin
 
 from railride.bodies.base import BodyModel, Parameter
-from railride.lagrange import Coordinate, Lagrangian
+from railride.lagrange import Coordinate, Lagrangian, rate
+from railride.parameters import Load
 
 m_c, I_c, e_c = sp.Symbol("m_c", positive=True), sp.Symbol("I_c", positive=True), sp.Symbol("e_c")
 z_c, theta_c, x_c = Coordinate("z_c"), Coordinate("theta_c"), Coordinate("x_c")
@@ -54,9 +55,21 @@ class RigidBody(BodyModel):
         """A uniform lift is heave alone."""
         return {z_c: 1}
 
+    def load_energy(self, mass: sp.Symbol, load: Load) -> sp.Expr:
+        """T of a rod: its middle x_p forward of the body's, moving with (-x_p θ̇ sin θ, ż)."""
+        half = self.body.length / 2
+        front = half if load.front is None else load.front
+        rear = -half if load.rear is None else load.rear
+        x_p, length = sp.Float((front + rear) / 2), sp.Float(front - rear)
+        v_x, v_z = (rate(u) for u in (x_p * cos(theta_c), self._along(x_p)))
+        return mass * (v_x**2 + v_z**2) / 2 + mass * length**2 / 12 * theta_c.dot**2 / 2
+
     def height(self, x: sp.Expr, at: float) -> sp.Expr:
         """z(x) = z_c + (x - e_c) sin θ_c."""
         self.check_point(at)
+        return self._along(x)
+
+    def _along(self, x: sp.Expr) -> sp.Expr:
         return z_c + (x - self.offset) * sin(theta_c)
 
     def floor(self, at: float, reading: str) -> sp.Expr:

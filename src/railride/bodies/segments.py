@@ -25,6 +25,7 @@ from railride.bodies.base import BodyModel, Parameter
 from railride.bodies.rigid import I_c, e_c, m_c
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
+from railride.parameters import Load
 
 L, k_theta, EI = sp.symbols("L k_theta EI", positive=True)
 f_bending, J_s = sp.symbols("f_bending J_s", positive=True)
@@ -117,7 +118,7 @@ class SegmentedBody(BodyModel):
         segments, joints = range(1, N + 1), range(1, N)
         kinematics = {theta(i): asin((z(i - 1) - z(i)) / ell) for i in segments}
         kinematics |= self._places(ell)
-        T = sp.Add(*(self._kinetic(i, ell) for i in segments))
+        T = sp.Add(*(_kinetic(i, *self._moments(i, ell)) for i in segments))
         V = sp.Add(*(k_theta * (theta(i) - theta(i + 1)) ** 2 / 2 for i in joints))
         D = sp.Add(*(c_theta * (theta(i).dot - theta(i + 1).dot) ** 2 / 2 for i in joints))
         return Lagrangian([z(i) for i in range(N + 1)], T, V, D, kinematics=kinematics)
@@ -135,12 +136,26 @@ class SegmentedBody(BodyModel):
             places[x(i)] = inner - ell / 2 * cos(theta(i))
         return places
 
-    def _kinetic(self, i: int, ell: sp.Expr) -> sp.Expr:
-        r"""T_i = ½ m (ẋ² + ż²) + S θ̇ (ż cos θ - ẋ sin θ) + ½ J θ̇² about the segment's middle."""
-        m, S, J = self._moments(i, ell)
-        v_x, v_z, omega = x(i).dot, (z(i - 1).dot + z(i).dot) / 2, theta(i).dot
-        T = m * (v_x**2 + v_z**2) / 2 + J * omega**2 / 2
-        return T + S * omega * (v_z * cos(theta(i)) - v_x * sin(theta(i))) if S != 0 else T
+    def load_energy(self, mass: sp.Symbol, load: Load) -> sp.Expr:
+        """T of the pieces of an even load, or of a point load, on the segments that carry it."""
+        N, ell = self.number, L / self.number
+        if load.front is None or load.rear is None:
+            share = mass / N
+            return sp.Add(*(_kinetic(i, share, 0, share * ell**2 / 12) for i in range(1, N + 1)))
+        if load.front == load.rear:
+            i = self.segment_at(load.front)
+            u = load.front - Rational(N + 1 - 2 * i, 2) * ell
+            return _kinetic(i, mass, mass * u, mass * u**2)
+        pieces, step = [], self.body.length / N
+        for i in range(self.segment_at(load.front), self.segment_at(load.rear) + 1):
+            ends = self.body.length / 2 - (i - 1) * step, self.body.length / 2 - i * step
+            front, rear = min(load.front, ends[0]), max(load.rear, ends[1])
+            if front <= rear:
+                continue
+            share = mass * (front - rear) / (load.front - load.rear)
+            u = (front + rear) / 2 - Rational(N + 1 - 2 * i, 2) * ell
+            pieces.append(_kinetic(i, share, share * u, share * (u**2 + (front - rear) ** 2 / 12)))
+        return sp.Add(*pieces)
 
     def _moments(self, i: int, ell: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
         """Mass, first and second moment ∫ μ uⁿ du of segment i about its middle."""
@@ -271,6 +286,17 @@ class SegmentedBody(BodyModel):
                 f'body\'s {uniform:.4g} kg m^2 (set body.inertia to "rods" or "segments", or '
                 "take one segment: the rigid body)"
             )
+
+
+def _kinetic(i: int, m: sp.Expr, S: sp.Expr, J: sp.Expr) -> sp.Expr:
+    r"""Kinetic energy of what segment i carries, by its moments about the segment's middle.
+
+    .. math:: T_i = \tfrac12 m (\dot x^2 + \dot z^2)
+              + S \dot\theta (\dot z \cos\theta - \dot x \sin\theta) + \tfrac12 J \dot\theta^2
+    """
+    v_x, v_z, omega = x(i).dot, (z(i - 1).dot + z(i).dot) / 2, theta(i).dot
+    T = m * (v_x**2 + v_z**2) / 2 + J * omega**2 / 2
+    return T + S * omega * (v_z * cos(theta(i)) - v_x * sin(theta(i))) if S != 0 else T
 
 
 def _values(array: NDArray[np.float64]) -> str:
