@@ -38,10 +38,13 @@ def test_a_stiff_mount_is_none():
 
 
 def test_a_soft_mount_leaves_no_damper():
-    """The damping ratio of heave goes with the mount's stiffness, to nothing."""
-    ratios = [modes(derive_vehicle(mounted(k, k), 1))[0].damping_ratio for k in (1e4, 1e3)]
-    assert ratios[0] / ratios[1] == pytest.approx(10, rel=0.05)
-    assert ratios[1] < 1e-3
+    """Far below ωc the loss of Maxwell's element is k_d²/(ωc): heave's damping goes with k_d²."""
+    heave = [
+        next(mode for mode in modes(derive_vehicle(mounted(1e9, k), 1)) if mode.label == "heave")
+        for k in (1e4, 1e3)
+    ]
+    assert heave[0].damping_ratio / heave[1].damping_ratio == pytest.approx(100, rel=0.2)
+    assert heave[1].damping_ratio < 1e-3
 
 
 def test_response_equals_the_complex_stiffness_of_maxwells_element():
@@ -84,8 +87,8 @@ def test_a_time_run_with_mounts_tends_to_the_exact_value():
 @pytest.mark.parametrize("segments", [1, 2, 3, 4, 7])
 @pytest.mark.parametrize(
     "loads",
-    [(Load(8000.0),), (Load(8000.0, 10.0, -3.0),), (Load(500.0, 5.0, 5.0), Load(900.0, -2.0, -9.0))],
-)  # fmt: skip
+    [(Load(8e3),), (Load(8e3, 10.0, -3.0),), (Load(500.0, 5.0, 5.0), Load(900.0, -2.0, -9.0))],
+)
 def test_payload_adds_its_mass_and_moments(segments, loads):
     vehicle = load_vehicle("cati2024")
     loaded, tare = (
@@ -126,7 +129,7 @@ def test_mounts_and_payload_read_back_from_their_file(tmp_path):
         ('[[payload]]\nfront = "2 m"\n', ["payload[1].mass", "missing"]),
         ('[[payload]]\nmass = "500 kg"\nfront = "2 m"\n', ["payload[1].rear", "both ends"]),
         ('[[payload]]\nmass = "5 kg"\nfront = "2 m"\nrear = "3 m"\n', ["payload[1].rear", "ahead"]),
-        ('[[payload]]\nmass = "5 kg"\nfront = "20 m"\nrear = "3 m"\n', ["payload[1].front", "12 m"]),
+        ('[[payload]]\nmass = "5 kg"\nfront = "20 m"\nrear = "3 m"\n', ["payload[1].front"]),
         ('[[payload]]\nmass = "-5 kg"\n', ["payload[1].mass", "-5"]),
         ('[[payload]]\nmas = "5 kg"\n', ["payload[1].mas", "mass"]),
     ],
@@ -142,7 +145,7 @@ def test_bad_payload_is_told(tmp_path, written, words):
 
 def test_a_mount_without_a_damper_is_refused():
     bogie = replace(load_vehicle("cati2024").bogies[0], primary_damping=0.0)
-    with pytest.raises(InputError, match="primary_damper_stiffness.*no damping"):
+    with pytest.raises(InputError, match=r"primary_damper_stiffness.*no damping"):
         replace(bogie, primary_damper_stiffness=2e6)
     with pytest.raises(InputError, match="damper of 0 on an elastic mount"):
         modes(derive_vehicle(mounted(2e6, 12e6), 2), c_1=0.0)
@@ -153,11 +156,8 @@ def test_wheel_load_is_the_force_that_moves_everything_on_it():
     model = derive_vehicle(load_vehicle("manchester"))
     m = model.matrices()
     Y = model.output_rows([model.outputs[f"wheel_load_{j}"] for j in range(1, 5)])
-    omega = 2 * np.pi * 0.01
-    q = np.linalg.solve(
-        m.K - omega**2 * m.M + 1j * omega * m.C, (m.K_w + 1j * omega * m.C_w).sum(1)
-    )
-    s, ones = 1j * omega, np.ones(4)
+    s, ones = 2j * np.pi * 0.01, np.ones(4)
+    q = np.linalg.solve(m.K + s**2 * m.M + s * m.C, (m.K_w + s * m.C_w) @ ones)
     load = Y["d"] @ q + s * (Y["v"] @ q) + (Y["w"] + s * Y["dw"] + s**2 * Y["ddw"]) @ ones
     mass = 32000 + 2 * 2615 + 4 * 1813
     assert load.sum() / s**2 == pytest.approx(mass, rel=1e-3)

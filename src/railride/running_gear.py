@@ -176,7 +176,7 @@ class RunningGear:
         return found
 
     def wheel_load(self, b: int, j: int) -> sp.Expr:
-        """Dynamic wheel load of wheelset j on bogie b, N: m_w ẅ - k_1 p - c_1 ḋ, d = p or stroke."""
+        """Dynamic load of wheelset j on bogie b, N: m_w ẅ - k_1 p - c_1 ḋ, d = p or stroke."""
         k_1, c_1 = self.symbol("primary_stiffness", b), self.symbol("primary_damping", b)
         p, m_w = primary_deflection(j), self.symbol("wheelset_mass", b)
         stroke = primary_stroke(j) if primary_stroke(j) in self.strokes else p
