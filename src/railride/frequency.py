@@ -115,7 +115,7 @@ def responses(
 
     Arguments as for :func:`frequency_response`; the frequencies in any order.
     """
-    omega = 2 * np.pi * _checked(frequency)
+    omega = 2 * np.pi * check_frequency(frequency)
     chosen = chosen_outputs(model, outputs)
     excite = [_excitation(model, source, speed) for source in sources]
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
@@ -172,11 +172,7 @@ def frequency_response(
     """
     import control
 
-    f = np.geomspace(*BAND_HZ, POINTS) if frequency is None else _checked(frequency)
-    if (np.diff(f) <= 0).any():
-        k = int(np.argmax(np.diff(f) <= 0))
-        raise InputError(f"frequency: found {f[k + 1]:g} Hz after {f[k]:g} Hz; expected them in "
-                         "ascending order, each once")  # fmt: skip
+    f = check_ascending(np.geomspace(*BAND_HZ, POINTS) if frequency is None else frequency)
     sources = [source] if isinstance(source, str) else list(source)
     chosen = chosen_outputs(model, outputs)
     names = [output.name for output in chosen]
@@ -219,8 +215,8 @@ def _excitation(
     )
 
 
-def _checked(frequency: ArrayLike) -> Array:
-    """Frequencies as an array (F,), all finite and above zero."""
+def check_frequency(frequency: ArrayLike) -> Array:
+    """Frequencies as an array (F,); InputError unless all are finite and above zero."""
     try:
         f = np.asarray(frequency, dtype=float)
     except (TypeError, ValueError):
@@ -230,6 +226,16 @@ def _checked(frequency: ArrayLike) -> Array:
         found = f"{wrong[0]:g} Hz" if f.ndim == 1 and wrong.size else f"an array of shape {f.shape}"
         raise InputError(f"frequency: found {found}; expected a list of finite frequencies above "
                          "zero, in Hz")  # fmt: skip
+    return f
+
+
+def check_ascending(frequency: ArrayLike) -> Array:
+    """Frequencies as an array (F,); InputError unless above zero, ascending and each there once."""
+    f = check_frequency(frequency)
+    if (np.diff(f) <= 0).any():
+        k = int(np.argmax(np.diff(f) <= 0))
+        raise InputError(f"frequency: found {f[k + 1]:g} Hz after {f[k]:g} Hz; expected them in "
+                         "ascending order, each once")  # fmt: skip
     return f
 
 
