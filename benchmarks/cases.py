@@ -112,6 +112,30 @@ def derive_growth(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
+def frequency(step: Callable[[], None]) -> dict[str, Any]:
+    """Frequency response at 100,000 frequencies, N = 8, one output, four wheelsets with delays."""
+    found = worker("frequency")
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "frequency",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="railride.frequency.track_response, matrices from parameters included, wall time",
+        peer="control.frequency_response (without slycot) on the state space with inputs w, w' of "
+        "the four wheelsets, delays put in after; wall time",
+        frequencies=found["frequencies"],
+        states=found["states"],
+        peer_difference=found["peer_difference"],
+        targets=[
+            at_least("times faster", peer / own, 20),
+            at_most("largest difference from a direct solve / largest value",
+                    found["difference"], 1e-9),
+        ],
+    )  # fmt: skip
+
+
 DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
 
 CASES: dict[str, tuple[Case, int]] = {
@@ -119,6 +143,7 @@ CASES: dict[str, tuple[Case, int]] = {
     "derive-linearise": (derive_linearise, DERIVE_ROUNDS),
     "derive-process": (derive_process, PROCESS_ROUNDS),
     "derive-growth": (derive_growth, GROWTH_ROUNDS),
+    "frequency": (frequency, 1),
 }
 """Name to the case and the number of its steps."""
 

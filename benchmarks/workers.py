@@ -20,6 +20,10 @@ RATE = 1000.0
 """Samples per second."""
 LENGTH = 1000.0
 """m of track."""
+SEGMENTS_FREQUENCY = 8
+FREQUENCIES = 100_000
+BAND = (0.05, 80.0)
+"""Hz, what a ride is rated over."""
 
 
 def timed(work: Callable[[], Any]) -> tuple[float, Any]:
@@ -95,6 +99,61 @@ def elevations_and_rates(t: Any, delays: Any, waves: int = 300) -> Any:
     return np.vstack([w, rate])
 
 
+def frequency(rounds: int = 3) -> dict[str, Any]:
+    """`track_response` and `control.frequency_response` at the same frequencies, same coach."""
+    import control
+    import numpy as np
+
+    from railride.frequency import track_response, wheelset_delays
+    from railride.parameters import load_vehicle
+    from railride.statespace import system_arrays
+    from railride.vehicle import derive_vehicle
+
+    model = derive_vehicle(load_vehicle("cati2024"), segments=SEGMENTS_FREQUENCY)
+    floor, f = [model.floor()], np.geomspace(*BAND, FREQUENCIES)
+    delays, s = wheelset_delays(model, SPEED), system_arrays(model, floor)
+    track = slice(0, 2 * delays.size)  # the actuators' forces follow, and stay zero
+    system = control.ss(s.A, s.B[:, track], s.C, s.D[:, track])
+    omega = 2 * np.pi * f
+
+    def peer_response() -> Any:
+        each = control.frequency_response(system, omega, squeeze=False).frdata[0]
+        e = np.exp(-1j * np.outer(delays, omega))
+        return (each * np.vstack([e, 1j * omega * e])).sum(axis=0)
+
+    track_response(model, floor, SPEED, f[:2])  # the outputs' rows are derived
+    own_times, peer_times = [], []
+    for _ in range(rounds):
+        own_time, own = timed(lambda: track_response(model, floor, SPEED, f)[0])
+        peer_time, peer = timed(peer_response)
+        own_times.append(own_time)
+        peer_times.append(peer_time)
+    direct = solved_directly(model, floor, delays, omega)
+    largest = np.abs(direct).max()
+    return {
+        "own": own_times,
+        "peer": peer_times,
+        "difference": float(np.abs(own - direct).max() / largest),
+        "peer_difference": float(np.abs(peer - direct).max() / largest),
+        "frequencies": f.size,
+        "states": len(s.A),
+    }
+
+
+def solved_directly(model: Any, outputs: Any, delays: Any, omega: Any) -> Any:
+    """(K - ω² M + iω C) q = (K_w + iω C_w) e by LAPACK at every ω; the acceleration's row of it."""
+    import numpy as np
+
+    m, row = model.matrices(), model.output_rows(outputs)["a"][0]
+    found = np.empty(omega.size, dtype=complex)
+    for start in range(0, omega.size, 5000):
+        w = omega[start : start + 5000, np.newaxis, np.newaxis]
+        e = np.exp(-1j * w * delays[:, np.newaxis])
+        q = np.linalg.solve(m.K - w**2 * m.M + 1j * w * m.C, (m.K_w + 1j * w * m.C_w) @ e)
+        found[start : start + 5000] = -(w[:, 0, 0] ** 2) * (row @ q[:, :, 0].T)
+    return found
+
+
 def derive_railride() -> dict[str, Any]:
     """From the parameters of the vehicle to its linear matrices in symbols."""
     from railride.parameters import load_vehicle
@@ -168,7 +227,12 @@ def _largest_difference(model: Any, linear: Any) -> float:
     return max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs)
 
 
-WORKERS = {"ride": ride, "derive-railride": derive_railride, "derive-sympy": derive_sympy}
+WORKERS = {
+    "ride": ride,
+    "frequency": frequency,
+    "derive-railride": derive_railride,
+    "derive-sympy": derive_sympy,
+}
 
 if __name__ == "__main__":
     json.dump(WORKERS[sys.argv[1]](), sys.stdout)

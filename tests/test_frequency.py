@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from vehicles import mirrored, paper_coach, random_model
+from vehicles import assemble, mirrored, paper_coach, random_model
 
 from railride.errors import InputError
-from railride.frequency import solve_at, track_response, wheelset_delays
+from railride.frequency import (
+    frequency_response,
+    responses,
+    track_response,
+    triangular,
+    wheelset_delays,
+)
+from railride.lagrange import rate
 from railride.modal import modes
-from railride.vehicle import derive_vehicle
+from railride.running_gear import primary_deflection
+from railride.statespace import state_space
+from railride.vehicle import Output, derive_vehicle
 
 V = 200 / 3.6
 
@@ -53,7 +64,7 @@ def test_solution_with_repeated_poles():
     m = paper_coach(1).matrices(m_c=1e15, I_c=1e17)
     omega = np.array([5.0, 60.0])
     force = np.ones((6, 2), dtype=complex)
-    found = solve_at(m, omega, force)
+    found = triangular(m).solve(omega, force)
     for k, w in enumerate(omega):
         expected = np.linalg.solve(m.K - w**2 * m.M + 1j * w * m.C, force[:, k])
         assert np.abs(found[:, k] - expected).max() < 1e-9 * np.abs(expected).max()
@@ -162,3 +173,165 @@ def test_primary_deflection_vanishes_on_a_slow_wave():
     model = paper_coach(2)
     H = track_response(model, [model.outputs["primary_3_deflection"]], V, [1e-3])
     assert np.abs(H).max() < 1e-4
+
+
+# single sources, names, python-control
+
+
+def by_hand(model, f):
+    """The car body's height at 4 m to every w and f, from matrices assembled without energies."""
+    values = model.values()
+    m = assemble(model.vehicle, model.body.segments, *(float(values[k]) for k in
+                                                       ("k_theta", "c_theta")))  # fmt: skip
+    omega = 2 * np.pi * f
+    columns = np.hstack([m.K_w + 1j * omega * m.C_w, m.B_f])
+    return m.height(4.0) @ np.linalg.solve(m.K - omega**2 * m.M + 1j * omega * m.C, columns)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_single_source_against_matrices_assembled_by_hand(seed):
+    model = random_model(seed, 3)
+    sources = [s.name for s in (*model.lagrangian.inputs, *model.lagrangian.forces)]
+    f = np.array([0.7, 3.3, 9.1, 30.0])
+    found = responses(model, [model.floor(4.0, "polygon", 0)], sources, f)[0]
+    expected = np.array([by_hand(model, x) for x in f]).T
+    scale = np.abs(expected).max(axis=1, keepdims=True)
+    assert (np.abs(found - expected) < 1e-9 * scale).all()
+
+
+def test_the_track_is_its_wheelsets_one_after_another():
+    model, f = random_model(1, 4), np.geomspace(0.2, 40, 50)
+    wheelsets = [w.name for w in model.lagrangian.inputs]
+    each = responses(model, None, wheelsets, f)[0]
+    e = np.exp(-2j * np.pi * np.outer(wheelset_delays(model, V), f))
+    np.testing.assert_allclose(track_response(model, [model.floor()], V, f)[0], (each * e).sum(0),
+                               rtol=1e-9)  # fmt: skip
+
+
+@pytest.mark.parametrize("segments", [1, 4])
+@pytest.mark.parametrize("seed", range(3))
+def test_receptances_are_reciprocal(seed, segments):
+    """A force between body and bogie 1 extends suspension b as a force there extends 1."""
+    model = random_model(seed, segments)
+    bogies = range(1, len(model.vehicle.bogies) + 1)
+    G = responses(model, [f"secondary_{b}_deflection" for b in bogies],
+                  [f"f_{b}" for b in bogies], np.geomspace(0.1, 80, 40))  # fmt: skip
+    assert np.abs(G - G.swapaxes(0, 1)).max() < 1e-12 * np.abs(G).max()
+    assert np.abs(G[0, 1]).max() > 1e-3 * np.abs(G).max()
+
+
+def test_an_actuator_on_a_rigid_coach_moves_masses_alone_at_high_frequency():
+    """z̈ over the middle per force on bogie 1 tends to 1/m_c, and the bogie's to -1/m_b."""
+    model = paper_coach(1)
+    found = responses(model, [model.floor(), model.outputs["bogie_1_acceleration"]], ["f_1"], [1e5])
+    np.testing.assert_allclose(found[:, 0, 0], [1 / 34000, -1 / 3000], rtol=1e-3)
+
+
+def test_what_is_felt_directly():
+    """Rates are iω times what they are rates of; an input's own second rate, and a force itself."""
+    model, f = paper_coach(2), np.array([0.5, 7.0, 40.0])
+    s = 2j * np.pi * f
+    extension = primary_deflection(1)
+    w, force = model.lagrangian.inputs[0], model.lagrangian.forces[1]
+    outputs = [Output(f"x{k}", expression, "", "") for k, expression in
+               enumerate([extension, rate(extension), w.ddot, force])]  # fmt: skip
+    H = responses(model, outputs, ["w_1", "f_2"], f)
+    np.testing.assert_allclose(H[1], s * H[0], rtol=1e-9)
+    np.testing.assert_allclose(H[2], [s**2, 0 * s], rtol=1e-12)
+    np.testing.assert_allclose(H[3], [0 * s, 1 + 0 * s], rtol=1e-12)
+
+
+def test_many_frequencies_are_the_same_as_few():
+    """Worked off in pieces: what stands at a border is as right as the rest."""
+    model, f = paper_coach(2), np.geomspace(0.1, 80, 2501)
+    some = [0, 1, 999, 1000, 1001, 1999, 2000, 2500]
+    floor = [model.floor(0.0, "polygon")]
+    every = track_response(model, floor, V, f)[0]
+    assert (
+        np.abs(every[some] - directly(model, V, f[some], 0.0)) < 1e-9 * np.abs(every)[some]
+    ).all()
+
+
+def test_as_python_control_has_it():
+    """The state space at the same frequencies, delays put in by hand."""
+    model, f = paper_coach(4), np.array([0.5, 2.0, 9.6, 21.0])
+    response = frequency_response(model, ["floor_acceleration", "bogie_1_acceleration"], f, speed=V)
+    assert response.input_labels == ["track"]
+    assert response.output_labels == ["floor_acceleration", "bogie_1_acceleration"]
+    np.testing.assert_allclose(response.omega, 2 * np.pi * f)
+    plant = state_space(model, ["floor_acceleration", "bogie_1_acceleration"])
+    s = 2j * np.pi * f
+    e = np.exp(-np.outer(wheelset_delays(model, V), s))
+    expected = np.einsum("kjf,jf->kf", plant(s)[:, :8], np.vstack([e, s * e]))
+    np.testing.assert_allclose(response.frdata[:, 0], expected, rtol=1e-9)
+
+
+def test_many_sources_and_outputs_keep_their_names():
+    names = ["secondary_2_deflection", "bogie_1_acceleration"]
+    response = frequency_response(paper_coach(2), names, [1.0, 3.0], speed=V,
+                                  source=["w_2", "track", "f_1"])  # fmt: skip
+    assert response.frdata.shape == (2, 3, 2)
+    alone = frequency_response(paper_coach(2), names[:1], [1.0, 3.0], source="f_1")
+    np.testing.assert_allclose(
+        response["secondary_2_deflection", "f_1"].frdata, alone.frdata, rtol=1e-12
+    )
+
+
+def test_python_control_plots_it():
+    import control
+    import matplotlib as mpl
+    from matplotlib import pyplot as plt
+
+    mpl.use("Agg")
+    response = frequency_response(paper_coach(2), speed=V)
+    assert response.omega.size == 2000
+    drawn = control.bode_plot(response, Hz=True, dB=True)
+    line = drawn.lines[0, 0][0]
+    f = response.omega / (2 * np.pi)
+    np.testing.assert_allclose(line.get_xdata(), f)
+    np.testing.assert_allclose(line.get_ydata(), 20 * np.log10(np.abs(response.frdata[0, 0])))
+    control.nichols_plot(response)
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"frequency": [1.0, 0.0]}, "0 Hz.*above zero"),
+        ({"frequency": [-1.0]}, "-1 Hz.*above zero"),
+        ({"frequency": [1.0, np.nan]}, "nan Hz"),
+        ({"frequency": [1.0, np.inf]}, "inf Hz"),
+        ({"frequency": []}, "expected a list of"),
+        ({"frequency": [[1.0]]}, "shape"),
+        ({"frequency": "fast"}, "expected numbers"),
+        ({"frequency": [2.0, 1.0]}, "1 Hz after 2 Hz.*ascending"),
+        ({"frequency": [2.0, 2.0]}, "2 Hz after 2 Hz.*each once"),
+        ({"speed": 0.0}, "speed"),
+        ({"speed": None}, "speed: found none"),
+        ({"source": "w_9"}, "found 'w_9'.*track, w_1, w_2, w_3, w_4, f_1, f_2"),
+        ({"source": ["f_1", "f_1"]}, "source: found f_1, f_1.*none twice"),
+        ({"source": []}, "source: found none"),
+        ({"outputs": ["floor"]}, "found 'floor'.*floor_acceleration, bogie_1_acceleration"),
+        ({"outputs": []}, "found none"),
+        ({"c_2": -1e5}, "c_2|unstable"),
+    ],
+)
+def test_bad_input_is_refused(given, message):
+    arguments = {"frequency": [1.0, 2.0], "speed": V} | given
+    with pytest.raises(InputError, match=message):
+        frequency_response(paper_coach(2), **arguments)
+
+
+def test_an_unstable_vehicle_has_no_frequency_response():
+    m = paper_coach(2).matrices()
+    with pytest.raises(InputError, match="unstable"):
+        triangular(replace(m, C=-0.1 * m.C, C_w=-0.1 * m.C_w))
+
+
+def test_the_response_at_a_deep_zero_is_rounding_alone():
+    """1.587 Hz of the paper's coach at 200 km/h: nothing passes to the middle, by 1e-10."""
+    zero = V / 17.5 / 2
+    for segments in (1, 4, 8):
+        model = paper_coach(segments)
+        H = np.abs(track_response(model, [model.floor()], V, [zero, 2 * zero]))[0]
+        assert H[0] < 1e-9 * H[1]

@@ -183,3 +183,10 @@ def test_signals_are_listed_by_name():
     assert signals(z * w + x.dot) == sorted([z, w, x.dot], key=lambda s: s.name)
     assert signals(k * sp.Symbol("z")) == []
     assert issubclass(Coordinate, Signal)
+
+
+def test_a_system_displays_as_its_energies():
+    shown = Lagrangian([z], m * z.dot**2 / 2, k * (z - w) ** 2 / 2, inputs=[w])._repr_latex_()
+    assert r"T &= \frac{\dot{z}^{2} m}{2}" in shown or r"T &= \frac{m \dot{z}^{2}}{2}" in shown
+    assert "V &=" in shown
+    assert "D &=" not in shown

@@ -47,7 +47,8 @@ def case(speed=40.0, position=0.0, seconds=5.0, **changes):
     time = np.arange(-200, round(100 * seconds) + 1) / 100
     weighted = 0.1 * np.sin(20 * time)
     weighted[np.flatnonzero(np.abs(time - 3) < 1e-9)] = -0.9
-    record = Record(time, 0.001 * np.cos(time), 2 * weighted, weighted, slice(200, time.size))
+    level, rated = 0.001 * np.cos(time), slice(200, time.size)
+    record = Record(time, 40.0 * time, level, 2 * weighted, weighted, rated)
     values = {"a_wrms_exact": 0.2345, "standard_error": 0.0123, "record": record}
     return Case(speed, position, "segments", 4, 0.3456, 0.2222, **{**values, **changes})
 

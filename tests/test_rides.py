@@ -13,12 +13,14 @@ from vehicles import paper_coach, random_model
 from railride.errors import InputError
 from railride.frequency import wheelset_delays
 from railride.modal import modes
+from railride.parameters import load_vehicle
 from railride.rides import load_track, ride
 from railride.spectra import spectrum
 from railride.statespace import system_arrays
 from railride.stochastic import stochastic_ride
 from railride.timerun import run_in_time, time_run
 from railride.track import Track, synthesise
+from railride.vehicle import derive_vehicle
 from railride.weightings import weighting
 
 V = 200 / 3.6
@@ -346,3 +348,30 @@ class _Growing:
 
     def matrices(self):
         return paper_coach(2).matrices(c_2=-5e3)
+
+
+def test_a_changed_model_rides_as_the_changed_vehicle_does():
+    """Nothing is derived again, and the value is that of a file with the other stiffness."""
+    coach = load_vehicle("cati2024")
+    soft = tuple(replace(bogie, secondary_stiffness=6e5) for bogie in coach.bogies)
+    derived, base = derive_vehicle(replace(coach, bogies=soft), 2), derive_vehicle(coach, 2)
+    changed = base.changed(secondary_stiffness=6e5)
+    values = [ride(model, speeds=40.0).cases[0].a_wrms for model in (derived, changed)]
+    assert values[0] == pytest.approx(values[1], rel=1e-12)
+    assert changed.linear is base.linear
+    with pytest.raises(InputError, match="secondary_stiffness"):
+        changed.changed(secondary_stifness=1.0)
+
+
+def test_remarks_name_the_rated_section_and_what_a_coarse_track_misses(tmp_path):
+    x = np.arange(0, 1500.1, 5.0)
+    track = Track(0.0, 5.0, 1e-3 * np.sin(x / 9), name="coarse.csv")
+    said = " | ".join(ride(derive_vehicle(load_vehicle("cati2024"), 1), track, 40.0).remarks)
+    assert "500 to 1500 m of 1500 m" in said
+    assert "2 Hz only" in said
+
+
+@pytest.mark.parametrize("speeds", ["fast", [[1, 2], [3]], object()])
+def test_speeds_that_are_no_numbers_are_refused(speeds):
+    with pytest.raises(InputError, match="speeds"):
+        ride(derive_vehicle(load_vehicle("cati2024"), 1), speeds=speeds)

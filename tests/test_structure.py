@@ -18,8 +18,8 @@ SOURCE = Path(railride.__file__).parent
 ORDER = """
 errors files units toml_tables vehicle_data parameters
 lagrange jets linear halfbody numeric
-bodies running_gear vehicle firstorder modal statespace spectra frequency
-track trackfile response weightings scales comfort stochastic timerun rides
+plausibility bodies running_gear parameter_values vehicle firstorder modal statespace spectra frequency bodes
+track trackfile response weightings scales comfort stochastic timerun rides active
 markup text report halfbody_report plots cli derive __main__
 """.split()
 

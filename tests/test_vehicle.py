@@ -318,7 +318,7 @@ def test_two_stiffnesses_are_refused_and_idle_ones_told():
     (remark,) = paper_coach(1, bending_frequency=9.0, bending_damping=0.01).remarks
     assert "bending frequency" in remark
     assert "bending damping" in remark
-    assert paper_coach(4, bending_frequency=9.0).remarks == ()
+    assert not any("effect" in r for r in paper_coach(4, bending_frequency=9.0).remarks)
 
 
 @pytest.mark.parametrize("given", [{"bending_frequency": -9.0}, {"bending_frequency": np.nan},

@@ -27,7 +27,8 @@ _WHERE = {
     "vehicle": ("VehicleModel", "Output", "derive_vehicle"),
     "modal": ("Mode", "modes"),
     "statespace": ("state_space",),
-    "frequency": ("track_response",),
+    "frequency": ("frequency_response", "track_response"),
+    "bodes": ("bode",),
     "spectra": ("Spectrum", "spectrum", "spectrum_names"),
     "track": ("Track", "synthesise"),
     "trackfile": ("read_track", "write_track"),
@@ -36,7 +37,8 @@ _WHERE = {
     "weightings": ("Weighting", "weighting", "weighting_names", "apply_weighting"),
     "comfort": ("indices",),
     "rides": ("RideResult", "ride"),
-    "plots": ("plot_acceleration", "plot_track", "plot_modes", "plot_ride"),
+    "active": ("Loop", "skyhook", "lqg", "rate_loops", "semi_active_ride", "suspension_signals"),
+    "plots": ("plot_acceleration", "plot_bode", "plot_track", "plot_modes", "plot_ride"),
     "errors": ("InputError",),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

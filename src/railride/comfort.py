@@ -23,6 +23,7 @@ from railride.weightings import (
     band_remark,
     checked_record,
     reflected_end,
+    weighting,
 )
 
 Direction = Literal["vertical", "lateral"]
@@ -30,6 +31,12 @@ Averaging = Literal["linear", "exponential"]
 
 COMFORT_BAND = (0.05, 80.0)
 """Band of the unweighted r.m.s., Hz."""
+
+SHORTEST = 1.0
+"""s: the window of MTVV; a shorter section has none."""
+
+FEW_PERIODS = 5.0
+"""s: below it a section is too short for what is rated down to 0.5 Hz."""
 
 PEAK_RATE = 2000.0
 """Least rate (Hz) at which peaks are read: an 80 Hz peak is then at most 0.8 % low."""
@@ -257,8 +264,8 @@ class ComfortIndices:
     duration: float
     a_rms: float
     a_wrms: float
-    mtvv: float
-    mtvv_exp: float
+    mtvv: float | None
+    mtvv_exp: float | None
     vdv: float
     crest_factor: float | None
     wz: float | None
@@ -268,7 +275,7 @@ class ComfortIndices:
 def indices(
     record: ArrayLike,
     rate: float,
-    weighting: Weighting,
+    weight: str | Weighting,
     *,
     section: slice = slice(None),
     direction: Direction | None = "vertical",
@@ -280,7 +287,8 @@ def indices(
     (:func:`railride.weightings.apply_weighting`); every index is then taken over the ``section`` of
     it that is rated (samples, step 1), MTVV's windows too: the run-in settles the filter and
     is in no other way part of the result. ``direction`` chooses Sperling's weighting, None (as for
-    the longitudinal axis, where there is none) leaves W_z out.
+    the longitudinal axis, where there is none) leaves W_z out. ``weight``: a weighting or its name.
+    A section shorter than 1 s has no MTVV and no W_z, and its a_rms is not limited to a band.
 
     Raises :class:`InputError` for a record that cannot be used or an empty section.
     """
@@ -292,41 +300,43 @@ def indices(
         raise InputError(
             str(Fault("section", str(section), f"at least one of {values.size} samples, step 1"))
         )
-    weighted = apply_weighting(weighting, values, rate, before=before)[section]
+    chosen = weighting(weight)
+    weighted = apply_weighting(chosen, values, rate, before=before)[section]
     duration = float(rated.size / rate)
     a_w, peak_ratio = float(rms(weighted)), float(crest_factor(weighted, rate))
-    largest, dose = float(mtvv(weighted, rate)), float(vdv(weighted, rate))
+    dose, short = float(vdv(weighted, rate)), duration < SHORTEST
+    largest = None if short else float(mtvv(weighted, rate))
     remarks = (
-        band_remark(weighting, rate),
+        band_remark(chosen, rate),
         _short_remark(duration),
         *_shock_remarks(a_w, peak_ratio, largest, dose, duration),
     )
     return ComfortIndices(
-        weighting=weighting.name,
+        weighting=chosen.name,
         duration=duration,
-        a_rms=float(band_rms(rated, rate)),
+        a_rms=float(rms(rated) if short else band_rms(rated, rate)),
         a_wrms=a_w,
         mtvv=largest,
-        mtvv_exp=float(mtvv(weighted, rate, kind="exponential")),
+        mtvv_exp=None if short else float(mtvv(weighted, rate, kind="exponential")),
         vdv=dose,
         crest_factor=None if math.isnan(peak_ratio) else peak_ratio,
-        wz=None if direction is None else float(sperling_wz(rated, rate, direction)),
+        wz=None if short or direction is None else float(sperling_wz(rated, rate, direction)),
         remarks=tuple(remark for remark in remarks if remark),
     )
 
 
 def _short_remark(duration: float) -> str | None:
-    """What a section shorter than MTVV's window cannot give."""
-    if duration >= 1:
+    """What a short section cannot give."""
+    if duration >= FEW_PERIODS:
         return None
+    text = f"the rated section lasts {duration:.3g} s, a few periods of what it rates at most"
     return (
-        f"the rated section lasts {duration:.3g} s, less than the 1 s that MTVV is taken over: "
-        "the rest of the window counts as zero"
+        text if duration >= SHORTEST else f"{text}: no MTVV, no W_z, and a_rms of all frequencies"
     )
 
 
 def _shock_remarks(
-    a_w: float, peak_ratio: float, largest: float, dose: float, duration: float
+    a_w: float, peak_ratio: float, largest: float | None, dose: float, duration: float
 ) -> list[str]:
     """ISO 2631-1:1997, 6.2.1 and 6.3.3: where the r.m.s. alone may rate a ride too well."""
     if a_w == 0:
@@ -334,7 +344,7 @@ def _shock_remarks(
     dose_ratio = dose / (a_w * duration**0.25)
     found = (
         ("crest factor", peak_ratio, 9.0),
-        ("MTVV/a_w", largest / a_w, 1.5),
+        ("MTVV/a_w", 0.0 if largest is None else largest / a_w, 1.5),
         ("VDV/(a_w T^¼)", dose_ratio, 1.75),
     )
     return [

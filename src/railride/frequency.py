@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 Complex = NDArray[np.complex128]
 
-TRACK = "track"
+TRACK, FLOOR = "track", "floor_acceleration"
 BAND_HZ, POINTS = (0.2, 40.0), 2000  # where a ride is looked at
 _TOGETHER = 1000  # frequencies at a time: what the processor keeps close by
 
@@ -52,9 +52,9 @@ class Triangular:
 
     def solve(self, omega: Array, force: Complex) -> Complex:
         """q of (K - ω² M + iω C) q = F at every ω: shapes (n, F) from (F,) and (n, F)."""
-        return self.left @ self.states(1j * omega, self.right @ force)
+        return np.asarray(self.left @ self.states(1j * omega, self.right @ force))
 
-    def states(self, s: Complex, y: Complex) -> Complex:
+    def states(self, s: NDArray[Any], y: NDArray[Any]) -> NDArray[Any]:
         """(s - T)⁻¹ y at every s, written over y: shapes (F,) and (states, F)."""
         for i in range(len(y) - 1, -1, -1):
             y[i] += self.T[i, i + 1 :] @ y[i + 1 :]
@@ -116,7 +116,8 @@ def responses(
     Arguments as for :func:`frequency_response`; the frequencies in any order.
     """
     omega = 2 * np.pi * check_frequency(frequency)
-    chosen = chosen_outputs(model, outputs)
+    # One by one: a name may come twice here, where nothing is called by its name.
+    chosen = [chosen_outputs(model, [y])[0] for y in ([FLOOR] if outputs is None else outputs)]
     excite = [_excitation(model, source, speed) for source in sources]
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
     form = triangular(m)
@@ -175,15 +176,14 @@ def frequency_response(
     f = check_ascending(np.geomspace(*BAND_HZ, POINTS) if frequency is None else frequency)
     sources = [source] if isinstance(source, str) else list(source)
     chosen = chosen_outputs(model, outputs)
-    names = [output.name for output in chosen]
-    for kind, signals in (("output", names), ("source", sources)):
-        if not signals or len(set(signals)) < len(signals):
-            raise InputError(f"{kind}: found {', '.join(signals) or 'none'}; expected at least one "
-                             "name, and none twice")  # fmt: skip
+    if not sources or len(set(sources)) < len(sources):
+        raise InputError(f"source: found {', '.join(map(str, sources)) or 'none'}; expected at "
+                         "least one name, and none twice")  # fmt: skip
     found = responses(model, chosen, sources, f, speed=speed, **changes)
     return control.FrequencyResponseData(
-        found, 2 * np.pi * f, inputs=sources, outputs=names, name=_plain(model.vehicle.name)
-    )
+        found, 2 * np.pi * f, inputs=sources, outputs=[output.name for output in chosen],
+        name=_plain(model.vehicle.name),
+    )  # fmt: skip
 
 
 def wheelset_delays(model: VehicleModel, speed: float) -> Array:

@@ -33,7 +33,7 @@ class Signal(sp.Symbol):
 
     >>> z = Signal("z_b1")
     >>> z.dot, z.ddot, sp.latex(z.ddot)
-    (z_b1_dot, z_b1_dot_dot, '\\ddot{z_{b1}}')
+    (z_b1_dot, z_b1_dot_dot, '\\ddot{z}_{b1}')
     """
 
     def __new__(cls, name: str) -> Self:  # noqa: D102 - the class says it
@@ -69,8 +69,11 @@ class Signal(sp.Symbol):
         return type(self)(self.name.replace(DOT, ""))
 
     def _latex(self, printer: Any) -> str:
-        base = printer.doprint(sp.Symbol(self.base.name))
-        return rf"\{'d' * self.order}ot{{{base}}}" if self.order else str(base)
+        if not self.order:
+            return str(printer.doprint(sp.Symbol(self.name)))
+        head, _, index = str(self.base.name).partition("_")
+        dotted = rf"\{'d' * self.order}ot{{{printer.doprint(sp.Symbol(head))}}}"
+        return f"{dotted}_{{{index.replace('_', ' ')}}}" if index else dotted
 
 
 class Coordinate(Signal):
@@ -212,6 +215,18 @@ class Lagrangian:
             self.coordinates, T, V, D, self.inputs, self.forces, work, equilibrium=self.equilibrium,
             outputs={name: sp.sympify(u).xreplace(table) for name, u in self.outputs.items()},
         )  # fmt: skip
+
+    def _repr_latex_(self) -> str:
+        lines = [rf"{sp.latex(name)} &= {sp.latex(u)}" for name, u in self.kinematics.items()]
+        energies = {"T": self.kinetic, "V": self.potential, "D": self.dissipation}
+        lines += [rf"{name} &= {sp.latex(u)}" for name, u in energies.items() if u != 0]
+        work = (rf"\left({sp.latex(F)}\right) \delta {sp.latex(r)}" for F, r in self.virtual_work)
+        lines += [rf"\delta W &= {' + '.join(work)}"] if self.virtual_work else []
+        q = ", ".join(sp.latex(s) for s in self.coordinates)
+        lines.insert(0, rf"q &= \left({q}\right)")
+        return "".join(
+            [r"$\displaystyle \begin{aligned} ", r" \\ ".join(lines), r" \end{aligned}$"]
+        )
 
     def equations(self) -> sp.Matrix:
         """The nonlinear equations of motion as a column: left-hand side less Q, each zero."""

@@ -20,7 +20,7 @@ from railride.errors import Faults, InputError
 from railride.numeric import Array
 from railride.scales import levels, paper_level
 from railride.spectra import Spectrum, check_speed, coverage_remark, spectrum
-from railride.stochastic import StochasticRide, stochastic_ride
+from railride.stochastic import BAND_HZ, StochasticRide, stochastic_ride
 from railride.timerun import LONGEST_RUN_IN, Run, time_run
 from railride.track import Track, recommended_step, resolved_band_hz, synthesise
 from railride.trackfile import read_track
@@ -32,18 +32,21 @@ if TYPE_CHECKING:
 
 PAPER_SPEEDS = (145 / 3.6, 200 / 3.6)  # m/s
 RATE = 1000.0  # Hz; at 1 ms the straight line between samples costs 0.1 % in r.m.s.
-TRACK_BEFORE = 1250.0  # m of synthetic track before the rated section: one track for all speeds
+TRACK_BEFORE = 1750.0  # m of synthetic track before the rated section: one track for all speeds
+FASTEST = 500 / 3.6  # m/s: above it a speed is hardly meant
+VERTICAL = ("Wk", "Wk_paper")  # weightings that the scales for vertical comfort are made for
 
 
 @dataclass(frozen=True, eq=False)
 class Record:
     """What the floor felt at one point: arrays (n,) over ``time``, s, zero where the rating begins.
 
-    elevation : m, under the leading wheelset. acceleration, weighted : m/s². rated : the samples
-    that are rated.
+    distance : m along the track, and elevation : m, of the leading wheelset. acceleration,
+    weighted : m/s². rated : the samples that are rated.
     """
 
     time: Array
+    distance: Array
     elevation: Array
     acceleration: Array
     weighted: Array
@@ -93,6 +96,11 @@ class RideResult:
     weighting: str
     cases: tuple[Case, ...]
     remarks: tuple[str, ...] = ()
+    length: float | None = None
+    seed: int | None = None
+
+    def _repr_html_(self) -> str:
+        return str(self.table().to_html(index=False, float_format="%.4g"))
 
     def table(self) -> pd.DataFrame:
         """The cases as rows, the units in the column names."""
@@ -121,9 +129,9 @@ class RideResult:
 def ride(
     model: VehicleModel,
     track: str | Path | Spectrum | Track = "erri_low",
-    speeds: Sequence[float] = PAPER_SPEEDS,
+    speeds: float | Sequence[float] = PAPER_SPEEDS,
     *,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = (0.0,),
     length: float = 1000.0,
     seed: int = 1,
     floor: str = "smooth",
@@ -137,7 +145,8 @@ def ride(
     Parameters
     ----------
     track : the name of a spectrum, a track file, a :class:`Spectrum` or a :class:`Track`.
-    speeds : m/s, each > 0. at : points of the floor, m forward of the body's middle.
+    speeds : m/s, one or several, each > 0. at : points of the floor, m forward of the body's
+        middle.
     length : m, the rated section; with a file, its last metres. seed : of a synthetic track.
     floor : "smooth" or "polygon". weight : a weighting's name. rate : samples a second.
     spectral : the exact stochastic values alone, without a time run.
@@ -155,7 +164,8 @@ def ride(
     >>> ride(model, "erri_low", [200 / 3.6], floor="polygon", spectral=True).cases[0].level
     'medium'
     """
-    _check_arguments(speeds, at, length, rate)
+    speeds, at = _several(speeds, "speeds"), _several(at, "at")
+    _check_arguments(model, speeds, at, length, rate)
     source, weighted_by = load_track(track), weighting(weight)
     if spectral and isinstance(source, Track):
         raise InputError(
@@ -164,12 +174,14 @@ def ride(
         )
     road = None if spectral else _road(source, speeds, length, seed)
     cases: list[Case] = []
-    remarks = [*model.vehicle.remarks, *model.remarks]
+    remarks = [*model.vehicle.remarks, *model.remarks, *_section(source, length)]
     for number, speed in enumerate(speeds, start=1):
         exact = None
         if isinstance(source, Spectrum):
             exact = stochastic_ride(model, speed, source, at, floor=floor, weight=weighted_by)
         remarks += _coverage(source, speed)
+        if speed > FASTEST:
+            remarks.append(f"{_kmh(speed)} is faster than trains run: is the speed in m/s?")
         if road is None:
             cases += _exact_cases(model, speed, exact)
         else:
@@ -182,8 +194,16 @@ def ride(
             remarks += said
         if progress is not None:
             progress(number / len(speeds))
+    remarks += _on_scales(cases, weighted_by)
     return RideResult(
-        model.vehicle.name, source.name, floor, weight, tuple(cases), tuple(dict.fromkeys(remarks))
+        model.vehicle.name,
+        source.name,
+        floor,
+        weighted_by.name,
+        tuple(cases),
+        tuple(dict.fromkeys(remarks)),
+        None if spectral else length,
+        seed if road is not None and road is not source else None,
     )
 
 
@@ -226,7 +246,7 @@ def _rate(
                 found.vdv,
                 found.crest_factor,
                 found.wz,
-                Record(run.time, run.elevation, acceleration, weighted, run.rated),
+                Record(run.time, run.distance, run.elevation, acceleration, weighted, run.rated),
             )
         )
     return cases, remarks
@@ -262,12 +282,50 @@ def _coverage(source: Spectrum | Track, speed: float) -> list[str]:
         remark = coverage_remark(source.name, source.active_band, speed)
         return [remark] if remark else []
     low, high = resolved_band_hz(source, speed)
-    return [f"{_kmh(speed)}: {source.name} holds {low:.2g} to {high:.3g} Hz; nothing outside"]
+    text = f"{_kmh(speed)}: {source.name} can be trusted from {low:.2g} to {high:.3g} Hz"
+    narrow = f"{text} only: what the vehicle would feel outside is missing from the values"
+    return [narrow if high < BAND_HZ[1] else text]
+
+
+def _section(source: Spectrum | Track, length: float) -> list[str]:
+    """A remark that names the rated part of a measured track."""
+    if isinstance(source, Spectrum) or source.length <= length:
+        return []
+    rated = f"{source.end - length:g} to {source.end:g} m"
+    return [f"rated are the last {length:g} m of {source.name}, {rated} of {source.length:g} m"]
+
+
+def _on_scales(cases: Sequence[Case], weight: Weighting) -> list[str]:
+    """What to know of the classes that a value falls into."""
+    remarks = []
+    if weight.name not in VERTICAL:
+        remarks.append(
+            f"the scales of comfort are made for W_k on vertical motion; {weight.name} values are "
+            "rated on them for comparison alone"
+        )
+    if any(case.level == "fairly comfortable" for case in cases):
+        remarks.append(
+            "the paper's Table 3 calls its worst class, 0.6 m/s² and above, fairly comfortable: "
+            "its last labels run backwards; see the other scales"
+        )
+    return remarks
+
+
+def _several(values: float | Sequence[float], name: str) -> list[float]:
+    """One number or several as a list."""
+    try:
+        return [float(value) for value in np.atleast_1d(np.asarray(values, dtype=float))]
+    except (TypeError, ValueError):
+        raise InputError(f"ride: {name}: found {values!r}; expected numbers in SI units") from None
 
 
 def _check_arguments(
-    speeds: Sequence[float], at: Sequence[float], length: float, rate: float
+    model: VehicleModel, speeds: Sequence[float], at: Sequence[float], length: float, rate: float
 ) -> None:
+    if not isinstance(model, VehicleModel):
+        raise InputError(
+            f"ride: found {type(model).__name__} for the model; expected what derive_vehicle gives"
+        )
     faults = Faults("ride")
     for values, name in ((speeds, "speeds"), (at, "at")):
         if not len(values):

@@ -212,10 +212,10 @@ class RunningGear:
         wheelsets = self.vehicle.bogies[b - 1].wheelsets
         own = "" if len({bogie.wheelsets for bogie in self.vehicle.bogies}) == 1 else f"_b{b}"
         before = sum(len(bogie.wheelsets) for bogie in self.vehicle.bogies[: b - 1])
-        return list(enumerate(_places(wheelsets, f"l_w{own}", f"x_w{own}_"), start=before + 1))
+        return list(enumerate(_places(wheelsets, "l_w", "x_w", own), start=before + 1))
 
 
-def _places(places: Sequence[float], mirrored: str, single: str) -> list[sp.Expr]:
+def _places(places: Sequence[float], mirrored: str, single: str, own: str = "") -> list[sp.Expr]:
     """Places as symbols: 0, ± one symbol for a mirrored pair, or one symbol each."""
     pairs = sorted({abs(x) for x in places if x and -x in places}, reverse=True)
     found: list[sp.Expr] = []
@@ -223,8 +223,9 @@ def _places(places: Sequence[float], mirrored: str, single: str) -> list[sp.Expr
         if not x:
             found.append(sp.S.Zero)
         elif abs(x) in pairs:
-            name = mirrored if len(pairs) == 1 else f"{mirrored}{pairs.index(abs(x)) + 1}"
+            pair = "" if len(pairs) == 1 else str(pairs.index(abs(x)) + 1)
+            name = f"{mirrored}{pair}{own}"
             found.append(sp.Symbol(name, positive=True) * (1 if x > 0 else -1))
         else:
-            found.append(sp.Symbol(f"{single}{number}", real=True))
+            found.append(sp.Symbol(f"{single}{number}{own}", real=True))
     return found

@@ -249,14 +249,16 @@ def spectrum_names() -> tuple[str, ...]:
     return tuple(_SHIPPED)
 
 
-def spectrum(name: str) -> Spectrum:
-    """Look a shipped spectrum up by its ``name``.
+def spectrum(name: str | Spectrum) -> Spectrum:
+    """Look a shipped spectrum up by its ``name``; what is a spectrum already stays as it is.
 
     Raises InputError for a name that there is not, listing those there are, the nearest first.
 
     >>> spectrum("erri_low").source
     'ERRI/ORE B176, low level'
     """
+    if isinstance(name, Spectrum):
+        return name
     if name in _SHIPPED:
         return _SHIPPED[name]
     near = difflib.get_close_matches(name.lower(), _SHIPPED, n=3, cutoff=0.5)

@@ -134,6 +134,11 @@ def chosen_outputs(
             chosen.append(output)
         else:
             chosen.append(known[output] or model.floor())
+    names = [output.name for output in chosen]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice or not names:
+        found = f"{', '.join(twice)} twice" if twice else "none"
+        raise InputError(f"outputs: found {found}; expected each once, and at least one")
     return chosen
 
 

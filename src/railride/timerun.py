@@ -37,12 +37,14 @@ MATTERS = 1e-3  # of the weighted mean square: a mode with less may still be rin
 class Run:
     """Floor accelerations of one run; ``time`` (n,), s, is zero where the rated section begins.
 
-    speed : m/s. elevation (n,) : m, under the leading wheelset. acceleration (positions, n) :
+    speed : m/s. distance (n,) : m along the track, and elevation (n,) : m, of the leading wheelset.
+    acceleration (positions, n) :
     m/s². rated : the samples that are rated. remarks : what to know of the run.
     """
 
     speed: float
     time: Array
+    distance: Array
     elevation: Array
     acceleration: Array
     rated: slice
@@ -90,7 +92,8 @@ def time_run(
     first, last = -int(np.floor(before / speed * rate)), int(np.floor(length / speed * rate))
     time = np.arange(first, last + 1) / rate
     delays = wheelset_delays(model, speed)
-    w, slope = track.elevation(start + speed * (time - delays[:, np.newaxis]))
+    distance = start + speed * time
+    w, slope = track.elevation(distance - speed * delays[:, np.newaxis])
     u = np.vstack([w, speed * slope])
     passive = slice(0, len(u))  # the actuators rest
     m = model.matrices()
@@ -99,7 +102,9 @@ def time_run(
         system.A, system.B[:, passive], system.C, system.D[:, passive], u, 1 / rate,
         x0=first_order(m).state(*at_rest.T),
     )  # fmt: skip
-    return Run(speed, time, w[0], response.outputs, slice(-first, time.size), tuple(remarks))
+    return Run(
+        speed, time, distance, w[0], response.outputs, slice(-first, time.size), tuple(remarks)
+    )
 
 
 def run_in_time(

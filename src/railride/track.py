@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from railride.errors import InputError
 from railride.spectra import FloatArray, Spectrum, check_band, check_speed
+from railride.spectra import spectrum as named_spectrum
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -287,8 +288,8 @@ def resolved_band_hz(track: Track, speed: float) -> tuple[float, float]:
     return speed / longest, speed / shortest
 
 
-def synthesise(spectrum: Spectrum, length: float, step: float, seed: int) -> Track:
-    """Draw a track from ``spectrum``: one sample of a stationary Gaussian process.
+def synthesise(source: str | Spectrum, length: float, step: float, seed: int) -> Track:
+    """Draw a track from ``source``, a spectrum or its name: one sample of a Gaussian process.
 
     w_j = Σ_k Re(c_k e^{i Omega_k j h}),  c_k = √(S(Omega_k) dOmega) (a_k + i b_k),
 
@@ -307,6 +308,7 @@ def synthesise(spectrum: Spectrum, length: float, step: float, seed: int) -> Tra
     """
     from scipy.fft import irfft
 
+    spectrum = named_spectrum(source)
     n = _points(length, step)
     check_seed(seed)
     spacing = 2.0 * pi / (n * step)

@@ -9,20 +9,23 @@ the wheelsets and f the actuator forces, all numbered from the front.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
 from railride.bodies import BodyModel, Parameter, RigidBody, SegmentedBody
-from railride.bodies.segments import c_theta, f_bending, k_theta, zeta_bending
+from railride.bodies.segments import k_theta
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.linear import LinearModel, linearise, output_rows
 from railride.numeric import Array, Matrices, MatrixFunction, symmetric_eigenvalues
-from railride.parameters import Vehicle
+from railride.parameter_values import ParameterValues
+from railride.parameters import Vehicle, load_vehicle
+from railride.plausibility import doubts
 from railride.running_gear import (
     RunningGear,
     bogie_heave,
@@ -30,6 +33,7 @@ from railride.running_gear import (
     secondary_deflection,
 )
 
+_DERIVED_ONCE = ("lagrangian", "linear", "_numeric", "_rows", "_values")
 HELD = 1e-12  # of a matrix scaled to ones on its diagonal: below it no spring holds the motion
 SPREAD = 1e13  # of ω²: above it rounding decides the lowest frequencies
 
@@ -53,11 +57,34 @@ class VehicleModel:
     vehicle : the parameters, SI.
     body : the car body's model.
     remarks : what the user should know of how the model was made.
+    overrides : parameter values in place of the vehicle's, see :meth:`changed`.
     """
 
     vehicle: Vehicle
     body: BodyModel
     remarks: tuple[str, ...] = ()
+    overrides: Mapping[str, float] = field(default_factory=dict)
+
+    def changed(self, **changes: float) -> VehicleModel:
+        """The same model with other parameter values, ready for a ride; nothing is derived again.
+
+        Raises
+        ------
+        InputError : a name that the model does not have; a value that cannot be.
+
+        Examples
+        --------
+        >>> from railride.parameters import load_vehicle
+        >>> soft = derive_vehicle(load_vehicle("cati2024"), segments=2).changed(k_2=6e5)
+        >>> float(soft.values()["k_2"])
+        600000.0
+        """
+        self.values(**changes)
+        named = {self._values.symbol_of(name): float(value) for name, value in changes.items()}
+        model = replace(self, overrides={**self.overrides, **named})
+        for name in _DERIVED_ONCE:
+            model.__dict__[name] = getattr(self, name)
+        return model
 
     @cached_property
     def running_gear(self) -> RunningGear:
@@ -75,81 +102,40 @@ class VehicleModel:
         return linearise(self.lagrangian)
 
     @cached_property
+    def _values(self) -> ParameterValues:
+        return ParameterValues(self.body, self.running_gear)
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         """Every independent parameter with its value: the body's, then the bogies'."""
-        return (*self.body.parameters, *self.running_gear.parameters)
+        return self._values.independent
 
     def values(self, **changes: ArrayLike) -> dict[str, Array]:
-        """Every parameter's value by name, with those in ``changes`` put in their place.
+        """Every parameter's value by symbol, with those in ``changes`` put in their place.
 
-        Dependent parameters follow: a body that was calibrated to its bending frequency keeps
-        it, whatever else changes, unless ``k_theta`` itself is among the changes.
+        What all bogies share goes by its key in parameter files too: ``secondary_stiffness`` is
+        ``k_2``. Dependent parameters follow: a body that was calibrated to its bending frequency
+        keeps it, whatever else changes, unless ``k_theta`` itself is among the changes.
 
         Raises
         ------
-        InputError : a name that the model does not have; a value that is not finite.
+        InputError : a name that the model does not have; a value that cannot be.
         """
-        values: dict[str, Array] = {
-            p.symbol.name: np.asarray(p.value, dtype=float) for p in self.parameters
-        }
-        dependent = [s.name for s in self.body.definitions] + ["k_theta", "c_theta"]
-        signs = {p.symbol.name: p.symbol for p in self.parameters}
-        for name, value in changes.items():
-            if name not in values and (name not in dependent or self.body.segments == 1):
-                known = ", ".join(sorted({*values, *(dependent if self.body.segments > 1 else ())}))
-                raise InputError(f"parameters: found {name!r}; expected one of {known}")
-            values[name] = np.asarray(value, dtype=float)
-            _refuse_impossible(name, values[name], signs.get(name))
-        for name, definition in self._definitions.items():
-            if name not in changes:
-                values[name] = definition(values)[name][..., 0, 0]
-        self.body.check_values(values)
-        if self.body.segments > 1:
-            self._calibrate_joints(values)
-        return values
-
-    @cached_property
-    def _definitions(self) -> dict[str, MatrixFunction]:
-        return {
-            symbol.name: MatrixFunction({symbol.name: sp.Matrix([[definition]])})
-            for symbol, definition in self.body.definitions.items()
-        }
-
-    def _calibrate_joints(self, values: dict[str, Array]) -> None:
-        """Put k_θ = (2π f_1)²/λ_1 and c_θ = 2 ζ k_θ/ω_1 in, λ_1 = ω_1²/k_θ of the free body.
-
-        Source for c_θ: a joint moment k_θ γ + c_θ γ̇ damps the first mode by c_θ ω_1/(2 k_θ).
-        """
-        if k_theta.name in values and c_theta.name in values:
-            return
-        unit = self.unit_bending(values)[..., 0]
-        if k_theta.name not in values:
-            values[k_theta.name] = (2 * np.pi * values[f_bending.name]) ** 2 / unit
-        if c_theta.name not in values:
-            stiffness, omega = values[k_theta.name], np.sqrt(values[k_theta.name] * unit)
-            values[c_theta.name] = 2 * values[zeta_bending.name] * stiffness / omega
-
-    @cached_property
-    def _free_body(self) -> MatrixFunction:
-        linear = linearise(self.body.energies)
-        return MatrixFunction({"M": linear.M, "K": linear.K})
-
-    def unit_bending(self, values: Mapping[str, ArrayLike]) -> Array:
-        """ω²/k_θ of the free-free bending modes, ascending: shape (..., N - 1)."""
-        A = self._free_body({**values, k_theta.name: 1.0})
-        return symmetric_eigenvalues(A["M"], A["K"])[..., 2:]
+        named = {self._values.symbol_of(name): value for name, value in changes.items()}
+        return self._values.at({**self.overrides, **named})
 
     def free_body_stiffness(self, **changes: ArrayLike) -> Array:
-        """K of the car body alone, free in space: shape (..., n, n) in the body's coordinates."""
-        return self._free_body(self.values(**changes))["K"]
+        """K of the empty car body alone, free in space: shape (..., n, n) in its coordinates."""
+        return self._values.free_body_stiffness(self.values(**changes))
 
     def bending_frequencies(self, **changes: ArrayLike) -> Array:
-        """Free-free bending frequencies of the car body in Hz, ascending; none if it is rigid."""
+        """Free-free bending frequencies of the empty body in Hz, ascending; none if it is rigid."""
         if self.body.segments == 1:
             return np.zeros(0)
         values = self.values(**changes)
         stiffness = values[k_theta.name][..., np.newaxis]
-        return np.asarray(np.sqrt(self.unit_bending(values) * stiffness) / (2 * np.pi))
+        unit = self._values.unit_bending(values)
+        return np.asarray(np.sqrt(unit * stiffness) / (2 * np.pi))
 
     @cached_property
     def _numeric(self) -> MatrixFunction:
@@ -273,8 +259,9 @@ class VehicleModel:
         M, stiffness = matrices.condensed
         own = np.flatnonzero(matrices.inertial)
         squares = symmetric_eigenvalues(M, stiffness).reshape(-1, own.size)
-        spread = squares[:, -1] / squares[:, 0]
-        if spread.max() > SPREAD:
+        lowest = np.maximum(squares[:, 0], 0.0)
+        spread = squares[:, -1] / np.maximum(lowest, np.finfo(float).tiny)
+        if not (spread <= SPREAD).all():
             worst = int(np.argmax(spread))
             of = (-1, own.size, own.size)
             ratio = np.diagonal(stiffness.reshape(of)[worst]) / np.diagonal(M.reshape(of)[worst])
@@ -286,16 +273,6 @@ class VehicleModel:
             )
 
 
-def _refuse_impossible(name: str, value: Array, symbol: sp.Symbol | None) -> None:
-    """Refuse a value that is not finite, or not positive where its symbol is."""
-    positive = symbol is not None and symbol.is_positive
-    fits = np.isfinite(value) & (value > 0) if positive else np.isfinite(value)
-    if not np.all(fits):
-        found = np.atleast_1d(value)[~np.atleast_1d(fits)][0]
-        expected = "finite numbers above 0" if positive else "finite numbers"
-        raise InputError(f"parameters: found {found} for {name}; expected {expected}")
-
-
 def _where(at: float) -> str:
     """A point of the floor in an output's name, where no dot may stand: ``_2_5m_behind``."""
     if at == 0:
@@ -304,7 +281,7 @@ def _where(at: float) -> str:
 
 
 def derive_vehicle(
-    vehicle: Vehicle,
+    vehicle: Vehicle | str | Path,
     segments: int | None = None,
     *,
     bending_frequency: float | None = None,
@@ -315,6 +292,7 @@ def derive_vehicle(
 
     Parameters
     ----------
+    vehicle : the parameters; or the name of a shipped vehicle or a file, to be loaded.
     segments : N ≥ 1; 1 is the rigid body. Default: 4, or 1 where no bending stiffness is known.
     bending_frequency, joint_stiffness : Hz or N m/rad, instead of what the vehicle says.
     bending_damping : structural damping ratio of the first bending mode, instead of the vehicle's.
@@ -324,12 +302,19 @@ def derive_vehicle(
     InputError : N that is not a whole number ≥ 1; both of the two stiffnesses; values out of range.
     """
     if bending_frequency is not None and joint_stiffness is not None:
-        raise InputError("body: found both a bending frequency and a joint stiffness; expected one "
-                         "of them (the other follows)")  # fmt: skip
+        raise InputError(
+            "body: found both a bending frequency and a joint stiffness; expected one of them (the "
+            "other follows)"
+        )
+    vehicle = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
     body = vehicle.body
     if bending_frequency is not None or joint_stiffness is not None:
-        body = replace(body, bending_frequency=bending_frequency, joint_stiffness=joint_stiffness,
-                       bending_stiffness=None)  # fmt: skip
+        body = replace(
+            body,
+            bending_frequency=bending_frequency,
+            joint_stiffness=joint_stiffness,
+            bending_stiffness=None,
+        )
     if bending_damping is not None:
         body = replace(body, bending_damping=bending_damping, joint_damping=None)
     known = (body.bending_frequency, body.joint_stiffness, body.bending_stiffness)
@@ -337,11 +322,31 @@ def derive_vehicle(
         segments = 4 if any(value is not None for value in known) else 1
     if isinstance(segments, bool) or not isinstance(segments, int | np.integer) or segments < 1:
         raise InputError(f"segments: found {segments!r}; expected a whole number of at least 1")
-    vehicle, segments = replace(vehicle, body=body), int(segments)
+    vehicle, remarks = replace(vehicle, body=body), list(doubts(vehicle))
     if segments > 1:
-        return VehicleModel(vehicle, SegmentedBody(body, segments))
-    given = {"bending frequency": bending_frequency, "joint stiffness": joint_stiffness,
-             "bending damping": bending_damping}  # fmt: skip
+        try:
+            segmented = SegmentedBody(body, int(segments))
+        except InputError as error:
+            raise InputError(f"{vehicle.name}: {error}") from None
+        return VehicleModel(vehicle, segmented, (*remarks, *_inertia_remark(vehicle, segmented)))
+    given = {
+        "bending frequency": bending_frequency,
+        "joint stiffness": joint_stiffness,
+        "bending damping": bending_damping,
+    }
     idle = [name for name, value in given.items() if value is not None]
-    remark = f"the body is rigid: {' and '.join(idle)} given with it without effect"
-    return VehicleModel(vehicle, RigidBody(body), (remark,) if idle else ())
+    if idle:
+        remarks.append(f"the body is rigid: {' and '.join(idle)} given with it without effect")
+    return VehicleModel(vehicle, RigidBody(body), tuple(remarks))
+
+
+def _inertia_remark(vehicle: Vehicle, body: SegmentedBody) -> list[str]:
+    """What became of the pitch inertia, where equal rods do not have the one that was given."""
+    uniform, given = vehicle.body.mass * vehicle.body.length**2 / 12, vehicle.body.pitch_inertia
+    if body.inertia != "rods" or abs(uniform - given) <= 1e-3 * given:
+        return []
+    remark = (
+        f"{vehicle.name}: the car body's pitch inertia of {given:.4g} kg m^2 is not used: "
+        f'{body.segments} equal rods have {uniform:.4g} kg m^2 (inertia = "graded" holds it)'
+    )
+    return [remark]

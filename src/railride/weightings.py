@@ -13,6 +13,7 @@ with Q1 = Q2 = 1/√2 (Butterworth). The parameters are in ``data/weightings.csv
 from __future__ import annotations
 
 import csv
+import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
@@ -186,17 +187,22 @@ def weighting_names() -> tuple[str, ...]:
     return tuple(_table())
 
 
-def weighting(name: str) -> Weighting:
+def weighting(name: str | Weighting) -> Weighting:
     """The weighting of that name; ``Wb`` is BS 6841's, ``Wb_en12299`` is EN 12299's.
+
+    What is a weighting already stays as it is.
 
     Raises :class:`InputError`, naming those that exist, where there is none.
     """
-    try:
+    if isinstance(name, Weighting):
+        return name
+    if name in _table():
         return _table()[name]
-    except KeyError:
-        raise InputError(
-            str(Fault("weighting", repr(name), "one of " + ", ".join(weighting_names())))
-        ) from None
+    near = difflib.get_close_matches(name.capitalize(), weighting_names(), n=1)
+    mend = f"did you mean {near[0]}?" if near else ""
+    raise InputError(
+        str(Fault("weighting", repr(name), "one of " + ", ".join(weighting_names()), mend))
+    )
 
 
 def checked_record(record: ArrayLike, rate: float) -> FloatArray:
@@ -229,7 +235,7 @@ def checked_record(record: ArrayLike, rate: float) -> FloatArray:
 
 
 def apply_weighting(
-    weighting: Weighting, record: ArrayLike, rate: float, *, before: float | None = None
+    weight: str | Weighting, record: ArrayLike, rate: float, *, before: float | None = None
 ) -> FloatArray:
     """a_w(t) = ∫ h(τ) a(t − τ) dτ at the samples, h the impulse response of the analogue filter.
 
@@ -237,7 +243,8 @@ def apply_weighting(
     the band-limited signal through the samples, up to fs/2: a bilinear filter or a first-order
     hold is 10 to 30 % low near 50 Hz at 200 to 250 Hz sampling.
 
-    ``record`` (..., n), m/s², time last, ``rate`` in Hz; the result has the record's shape.
+    ``weight``: a weighting or its name. ``record`` (..., n), m/s², time last, ``rate`` in Hz; the
+    result has the record's shape.
 
     The ends: before its first sample the record is taken to have stood for ever at the level
     ``before`` (m/s²; default each row's own mean, 0 = from rest), so an offset such as gravity
@@ -251,17 +258,18 @@ def apply_weighting(
     """
     from scipy import fft
 
+    chosen = weighting(weight)
     values = checked_record(record, rate)
     if before is not None and not math.isfinite(before):
         raise InputError(
             str(Fault("level before the record", str(before), "a finite number in m/s²"))
         )
     count = values.shape[-1]
-    slowest = float(np.min(-weighting.poles().real)) if weighting.poles().size else math.inf
+    slowest = float(np.min(-chosen.poles().real)) if chosen.poles().size else math.inf
     padding = math.ceil(_RING_DOWN / slowest * rate) + 1
     length = fft.next_fast_len(count + 2 * _FADE + padding, real=True)
-    response = weighting.response(fft.rfftfreq(length, 1 / rate))
-    at_rest = float(weighting.response(0.0).real)
+    response = chosen.response(fft.rfftfreq(length, 1 / rate))
+    at_rest = float(chosen.response(0.0).real)
 
     result = np.empty_like(values)
     rows, results = values.reshape(-1, count), result.reshape(-1, count)

@@ -280,11 +280,14 @@ class SegmentedBody(BodyModel):
         lowest = np.min([a + d * s + b * s**2 for s in (-half, half, minimum)])
         if lowest < 0:
             uniform = float(np.max(values["m_c"] * values["L"] ** 2 / 12))
+            others = 'set body.inertia to "rods" or "segments"'
+            mend = "move the mass centre to the middle" if self.body.mass_centre else others
             raise InputError(
-                f"body.pitch_inertia: found {_values(values['I_c'])} kg m^2, for which a graded "
-                f"mass per length falls to {lowest:.4g} kg/m; expected a value nearer to a uniform "
-                f'body\'s {uniform:.4g} kg m^2 (set body.inertia to "rods" or "segments", or '
-                "take one segment: the rigid body)"
+                f"body.pitch_inertia: found {_values(values['I_c'])} kg m^2 with a mass of "
+                f"{_values(values['m_c'])} kg, mass centre at {self.body.mass_centre:g} m, for "
+                f"which a graded mass per length falls to {lowest:.4g} kg/m; expected values "
+                f"nearer to a uniform body's {uniform:.4g} kg m^2 (is one of them wrong? else "
+                f"{mend}, or take one segment: the rigid body)"
             )
 
 

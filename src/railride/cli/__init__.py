@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
+from railride.cli.bode import bode
 from railride.cli.derive import derive
 from railride.cli.modes import modes
 from railride.cli.ride import ride
@@ -21,7 +22,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (derive, modes, ride, track):
+for command in (bode, derive, modes, ride, track):
     app.command()(command)
 
 

@@ -5,6 +5,7 @@ axes; what needs several axes returns the figure. Nothing is shown and no settin
 figures know nothing of pyplot, and matplotlib is loaded when the first one is drawn.
 """
 
+from railride.plots.bode import plot_bode
 from railride.plots.canvas import save
 from railride.plots.modes import plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
@@ -12,6 +13,7 @@ from railride.plots.tracks import plot_track, plot_track_overview, plot_track_sp
 
 __all__ = [
     "plot_acceleration",
+    "plot_bode",
     "plot_modes",
     "plot_ride",
     "plot_track",

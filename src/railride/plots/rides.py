@@ -99,11 +99,11 @@ def save_ride_plots(result: RideResult, folder: str | Path) -> list[Path]:
 def track_of(result: RideResult) -> Track:
     """The rated section's level as it was under the leading wheelset, of the first case.
 
-    All cases run over the same track; distance counts from where the rated section begins.
+    All cases run over the same track; distance is the track's own.
     """
     case = result.cases[0]
     record = _record_of(case)
-    distance, level = case.speed * record.time[record.rated], record.elevation[record.rated]
+    distance, level = record.distance[record.rated], record.elevation[record.rated]
     return Track(float(distance[0]), float(distance[1] - distance[0]), level, name=result.track)
 
 

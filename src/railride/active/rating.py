@@ -1,0 +1,212 @@
+r"""What a loop gives: comfort, suspension travel and forces over a track of a spectrum, exactly.
+
+.. math:: H(\omega) = \sum_j (G_{w_j} + i\omega\, G_{\dot w_j})\, e^{-i\omega l_j/V}, \qquad
+          \overline{y^2} = \int |W|^2 |H|^2 S_w\, df
+
+with the loop's transfer functions G from the elevation w_j under wheelset j and from its rate, l_j
+its distance behind the leading one. The integral is that of :mod:`railride.stochastic`.
+
+Source: as there; the wheelsets' delays as in :mod:`railride.frequency`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from railride.active.loop import Complex, Loop, respond, triangular_form
+from railride.errors import InputError
+from railride.frequency import check_frequency, wheelset_delays
+from railride.numeric import Array
+from railride.spectra import Spectrum, check_speed
+from railride.stochastic.process import (
+    BAND_HZ,
+    PLAIN,
+    Gain,
+    Process,
+    covered_band,
+    weighted,
+)
+from railride.stochastic.quadrature import graded_panels
+from railride.vehicle import VehicleModel
+from railride.weightings import Weighting, weighting
+
+if TYPE_CHECKING:
+    import control
+    import pandas as pd
+
+PASSIVE = "passive"
+
+
+def closed_response(
+    system: control.StateSpace, model: VehicleModel, speed: float, frequency: ArrayLike
+) -> Complex:
+    """Response of a loop's outputs to the elevation under the leading wheelset.
+
+    Parameters
+    ----------
+    system : with the inputs w_1 …, dw_1 … first, as :meth:`Loop.closed` gives it.
+    speed : V in m/s, > 0. frequency : in Hz, shape (F,), > 0.
+
+    Returns
+    -------
+    array : shape (outputs, F), in the output's unit per metre.
+
+    Raises
+    ------
+    InputError : a speed ≤ 0, a system that does not begin with the track's inputs.
+    """
+    check_speed(speed)
+    names = [w.name for w in model.linear.inputs]
+    track = [*names, *(f"d{name}" for name in names)]
+    k = len(names)
+    if system.input_labels[: 2 * k] != track:
+        raise InputError(f"system: found the inputs {', '.join(system.input_labels)}; expected "
+                         f"{', '.join(track)} first")  # fmt: skip
+    s = 2j * np.pi * check_frequency(frequency)
+    e = np.exp(-wheelset_delays(model, speed)[:, np.newaxis] * s)
+    return respond(system, s, np.concatenate([e, s * e]))
+
+
+@dataclass(frozen=True)
+class LoopRating:
+    """What a stationary ride comes to, over 0.05-80 Hz.
+
+    a_wrms : m/s², weighted r.m.s. of the floor's acceleration, (positions,). travel : m, r.m.s. of
+    the secondary suspension's extension, (bogies,). force : N, r.m.s. of the actuators, (bogies,).
+    decay : 1/s, of the motion that is slowest to settle, and least_damping_ratio of all of them.
+    modulus_margin : see :attr:`Loop.modulus_margin`.
+    """
+
+    a_wrms: Array
+    travel: Array
+    force: Array
+    decay: float
+    least_damping_ratio: float
+    modulus_margin: float
+
+
+def rate_loop(
+    loop: Loop,
+    speed: float,
+    spectrum: Spectrum,
+    at: Sequence[float] = (0.0,),
+    *,
+    floor: str = "smooth",
+    weight: Weighting | None = None,
+) -> LoopRating:
+    """Exact comfort, travel and forces of one loop at a speed over a track of a spectrum.
+
+    Parameters
+    ----------
+    loop : the design, stable as it is. speed : V in m/s, > 0.
+    at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
+    weight : default W_k.
+
+    Raises
+    ------
+    InputError : speed ≤ 0, a point off the body, a spectrum with nothing in 0.05-80 Hz.
+    """
+    model = loop.model
+    points, bogies = [model.floor(x, floor) for x in at], model.running_gear.bogies
+    system = loop.closed([*points, *(f"secondary_{b}_deflection" for b in bogies)])
+    gains = (PLAIN, weighted(weighting("Wk") if weight is None else weight))
+    found = _process(system, model, speed, spectrum, gains).integrals()
+    plain, comfort = np.sqrt(found.mean_square)
+    n, m = len(points), len(points) + len(bogies)
+    force = plain[m:] if len(plain) > m else np.zeros(len(bogies))
+    return LoopRating(comfort[:n], plain[n:m], force, loop.decay, loop.least_damping_ratio,
+                      loop.modulus_margin)  # fmt: skip
+
+
+def _process(
+    system: control.StateSpace,
+    model: VehicleModel,
+    speed: float,
+    spectrum: Spectrum,
+    gains: tuple[Gain, ...],
+) -> Process:
+    """The outputs of a loop as stationary processes over 0.05-80 Hz."""
+    check_speed(speed)
+    form, k = triangular_form(system), len(model.linear.inputs)
+    low, high = covered_band(spectrum, speed, BAND_HZ)
+    marks = speed * np.asarray(spectrum.breakpoints) / (2 * np.pi)
+    delays = wheelset_delays(model, speed)
+    poles = np.concatenate([
+        np.diagonal(form.T) / (2j * np.pi),
+        speed * np.asarray(spectrum.poles, dtype=complex) / (2 * np.pi),
+        *(gain.poles for gain in gains),
+    ])  # fmt: skip
+    edges = graded_panels(
+        [low, *marks[(marks > low) & (marks < high)], high], poles, 1 / float(delays.max())
+    )
+    return Process(
+        form,
+        rows=((0, form.left),),
+        direct=((0, system.D[:, :k]), (1, system.D[:, k : 2 * k])),
+        into=form.right[:, : 2 * k],
+        delays=delays,
+        speed=speed,
+        spectrum=spectrum,
+        edges=edges,
+        gains=gains,
+    )
+
+
+def rate_loops(
+    loops: Mapping[str, Loop] | Sequence[Loop],
+    speed: float,
+    spectrum: Spectrum,
+    at: Sequence[float] = (0.0,),
+    *,
+    floor: str = "smooth",
+    weight: Weighting | None = None,
+) -> pd.DataFrame:
+    """Designs beside the passive vehicle, one row each, the units in the column names.
+
+    Parameters
+    ----------
+    loops : designs by name, or designs with names of their own, all of one vehicle.
+    speed : V in m/s, > 0. spectrum : of the track.
+    at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
+    weight : default W_k.
+
+    Raises
+    ------
+    InputError : no loop, or loops of different vehicles; else as :func:`rate_loop`.
+
+    Examples
+    --------
+    >>> from railride import derive_vehicle, load_vehicle, skyhook, spectrum
+    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=1)
+    >>> table = rate_loops([skyhook(coach, 100e3)], 200 / 3.6, spectrum("erri_low"))
+    >>> table.index.tolist(), table["a_wrms at 0 m [m/s^2]"].round(3).tolist()
+    (['passive', 'skyhook'], [0.076, 0.069])
+    """
+    import pandas as pd
+
+    named = dict(loops) if isinstance(loops, Mapping) else {loop.name: loop for loop in loops}
+    if not named:
+        raise InputError("loops: found none; expected at least one")
+    model = next(iter(named.values())).model
+    if any(loop.model is not model for loop in named.values()):
+        raise InputError("loops: found designs for different vehicles; expected one vehicle, which "
+                         "the passive row then shows (rate each vehicle by itself)")  # fmt: skip
+    named = {PASSIVE: Loop(PASSIVE, model)} | named
+    rows = []
+    for loop in named.values():
+        found = rate_loop(loop, speed, spectrum, at, floor=floor, weight=weight)
+        comfort = zip(at, found.a_wrms, strict=True)
+        row = {f"a_wrms at {x:g} m [m/s^2]": float(a_w) for x, a_w in comfort}
+        for b, travel in enumerate(found.travel, start=1):
+            row[f"travel r.m.s. bogie {b} [m]"] = float(travel)
+        for b, force in enumerate(found.force, start=1):
+            row[f"force r.m.s. bogie {b} [N]"] = float(force)
+        rows.append(row | {"slowest decay [1/s]": found.decay,
+                           "least damping ratio": found.least_damping_ratio,
+                           "modulus margin": found.modulus_margin})  # fmt: skip
+    return pd.DataFrame(rows, index=pd.Index(named, name="design"))

@@ -1,0 +1,35 @@
+"""The exact stochastic ride: mean squares from spectra, without a time run.
+
+quadrature (panels that shrink towards poles) → process (outputs of the vehicle as stationary
+processes) → ride (comfort values), bands (third octaves), maps (along the car, over speed),
+extremes (suspension travel, wheel load), shares (which mode it comes from); and measured (the
+spectrum of a track that was measured).
+"""
+
+from railride.stochastic.bands import third_octaves
+from railride.stochastic.extremes import Extreme, expected_peak, extremes, output_statistics
+from railride.stochastic.maps import comfort_map
+from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum
+from railride.stochastic.process import BAND_HZ, Gain, Process, process
+from railride.stochastic.ride import StochasticRide, stochastic_ride, weighted_rms
+
+from railride.stochastic.shares import mode_shares
+
+__all__ = [
+    "BAND_HZ",
+    "Extreme",
+    "Gain",
+    "MeasuredSpectrum",
+    "Process",
+    "StochasticRide",
+    "comfort_map",
+    "expected_peak",
+    "extremes",
+    "measured_spectrum",
+    "mode_shares",
+    "output_statistics",
+    "process",
+    "stochastic_ride",
+    "third_octaves",
+    "weighted_rms",
+]

@@ -1,0 +1,117 @@
+r"""The spectrum of a measured track, for the exact stochastic ride over it.
+
+Between the lines of Welch's estimate Ω² S(Ω), the spectrum of the slope, is linear: where a track's
+spectrum is steepest it falls as 1/Ω², and what is linear between lines keeps the mean of what
+scatters (a straight line between logarithms would not).
+
+Its scatter is that of the track's length: with the window h(x) and segments that overlap by half,
+the sum u of h² over them weights the track, and a line of length
+
+.. math:: L_{eff} = \left(\textstyle\int u\,dx\right)^2 / \int u^2\,dx
+
+weighted evenly would scatter as much.
+
+Source: P.D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from railride.errors import InputError
+from railride.numeric import Array
+from railride.spectra import Spectrum
+from railride.track import RESOLVED_SAMPLES, Track
+
+SHORTEST, LONGEST = 200.0, 1000.0  # m, of a segment, where the track's length lets one choose
+_FIRST_LINE = 2  # below it the window and the straight line taken out decide
+FEW = 8  # segments below which an estimate is indicative
+
+
+@dataclass(frozen=True)
+class MeasuredSpectrum(Spectrum):
+    """A spectrum from a measured track: of ``segments`` segments of ``segment`` m each.
+
+    effective_length : m; its values scatter as those of one run over so much track.
+    """
+
+    segments: int = 1
+    segment: float = 0.0
+    effective_length: float = 0.0
+
+    @property
+    def remark(self) -> str:
+        """What it was estimated from."""
+        few = ": a few segments only, indicative" if self.segments < FEW else ""
+        shortest, longest = self.band or (0.0, 0.0)
+        return (
+            f"{self.name}: exact values estimated from a Welch spectrum of {self.segments} "
+            f"segments of {self.segment:.6g} m, wavelengths of {shortest:.3g} to {longest:.4g} m; "
+            f"they scatter as one run over {self.effective_length:.4g} m of such a track{few}"
+        )
+
+
+def measured_spectrum(track: Track, segment: float | None = None) -> MeasuredSpectrum:
+    """The one-sided spectrum of a measured track's level, by Welch's method.
+
+    Parameters
+    ----------
+    segment : m; default an eighth of the track, 200 to 1000 m, but at most half of the track.
+
+    Returns
+    -------
+    spectrum : from the third line, half a segment long, to four samples; within the track's band.
+
+    Raises
+    ------
+    InputError : a track or segment too short to hold any such line.
+
+    Examples
+    --------
+    >>> from railride import spectrum, synthesise
+    >>> found = measured_spectrum(synthesise(spectrum("erri_low"), 2000.0, 0.25, seed=1))
+    >>> found.segments, found.band
+    (15, (1.0, 125.125))
+    """
+    if segment is None:
+        segment = min(track.length / 2, max(SHORTEST, min(LONGEST, track.length / 8)))
+    wavenumber, density = track.psd(segment)
+    samples = round(2 * pi / (track.step * wavenumber[1]))
+    shortest, longest = track.band or (0.0, np.inf)
+    shortest = max(shortest, RESOLVED_SAMPLES * track.step)
+    longest = min(longest, samples * track.step / _FIRST_LINE)
+    if shortest >= longest:
+        raise InputError(
+            f"track {track.name}: found {track.length:g} m in steps of {track.step:g} m, from "
+            "which no spectrum can be estimated; expected at least "
+            f"{4 * _FIRST_LINE * RESOLVED_SAMPLES} samples and a band within the track's length"
+        )
+    inside = (wavenumber > 2 * pi / longest) & (wavenumber < 2 * pi / shortest)
+    lines, slope = wavenumber[1:], (wavenumber**2 * density)[1:]
+    slope = np.maximum(slope, 1e-40 + 1e-30 * slope.max())  # a level track: as good as none
+    hop = samples - samples // 2
+    segments = 1 + (track.level.size - samples) // hop
+    return MeasuredSpectrum(
+        name=track.name,
+        source=track.source or "measured",
+        unit="m^2/(rad/m)",
+        sidedness="one-sided",
+        formula=lambda O: np.interp(np.real(O), lines, slope) / O**2,  # noqa: E741
+        band=(float(shortest), float(longest)),
+        breakpoints=tuple(wavenumber[inside].tolist()),
+        segments=segments,
+        segment=samples * track.step,
+        effective_length=track.step * _even_samples(samples, hop, segments),
+    )
+
+
+def _even_samples(samples: int, hop: int, segments: int) -> float:
+    """(Σ u)²/Σ u² of the Hann windows' squares, summed over the segments."""
+    square = np.sin(pi * np.arange(samples) / samples) ** 4
+    u: Array = np.zeros(samples + hop * (segments - 1))
+    for start in range(0, hop * segments, hop):
+        u[start : start + samples] += square
+    return float(u.sum() ** 2 / (u**2).sum())

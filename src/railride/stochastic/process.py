@@ -1,0 +1,265 @@
+r"""The outputs of a vehicle on a track as stationary processes.
+
+.. math:: S_y(f) = |H(f)|^2 S_w(f), \qquad S_w(f) = \frac{2\pi}{V}\, S\!\left(\frac{2\pi f}{V}\right)
+          , \qquad \overline{y_W^2} = \int_{f_1}^{f_2} |W|^2 S_y \, df
+
+with the one-sided spectrum S of the track, the response H of an output to it and a weighting W.
+
+A mode without any damping has no stationary motion: a share of the integral in its line alone is
+refused. A mode that has no part in an output has none in its integral, damped or not.
+
+Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Chapter 7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from railride.comfort import sperling_weighting
+from railride.errors import InputError
+from railride.frequency import Triangular, triangular
+from railride.numeric import Array, Matrices
+from railride.spectra import Spectrum, check_speed
+from railride.stochastic.quadrature import distances, gauss_errors, gauss_points, graded_panels
+from railride.weightings import Weighting
+
+Complex = NDArray[np.complex128]
+
+BAND_HZ = (0.05, 80.0)
+UNDAMPED = 1e-10  # damping ratio below which a mode counts as undamped
+_LINE = 1e-8  # half the width of an undamped mode's line, of its frequency
+_MOST_IN_LINE = 1e-6  # of the mean square
+_PANELS_TOGETHER = 2000  # at a time: what the memory need not notice
+_EPSILON = float(np.finfo(float).eps)
+
+
+@dataclass(frozen=True)
+class Gain:
+    """|W(f)|² with its poles in the plane of f."""
+
+    power: Callable[[Array], Array]
+    poles: Complex
+
+
+PLAIN = Gain(np.ones_like, np.zeros(0, dtype=complex))
+
+
+@dataclass(frozen=True)
+class Integrals:
+    """Per panel, shape (gains, outputs, panels): ∫ |W|² S_y df and its estimated error.
+
+    squares : ∫ (|W|² S_y)² df of the whole band, (gains, outputs).
+    """
+
+    edges: Array
+    values: Array
+    errors: Array
+    squares: Array
+
+    @property
+    def mean_square(self) -> Array:
+        """Of the whole band, (gains, outputs)."""
+        return np.asarray(self.values.sum(axis=-1))
+
+    @property
+    def error(self) -> Array:
+        """Estimated relative error of the mean square, (gains, outputs); 0 where that is 0."""
+        return relative(self.errors.sum(axis=-1), self.mean_square)
+
+
+@dataclass(frozen=True)
+class Process:
+    """Outputs of one vehicle at one speed over a track of a spectrum, between two frequencies.
+
+    form : the vehicle in triangular form. rows, direct : of the outputs. into : the forces of
+    elevations, then of their rates. delays : of the wheelsets, s. speed : m/s. edges : of the panels,
+    Hz. gains : the weightings whose poles the panels respect.
+    """
+
+    form: Triangular
+    rows: tuple[tuple[int, Complex], ...]
+    direct: tuple[tuple[int, Array], ...]
+    into: Complex
+    delays: Array
+    speed: float
+    spectrum: Spectrum
+    edges: Array
+    gains: tuple[Gain, ...]
+
+    @property
+    def eigenvalues(self) -> Complex:
+        """λ of the vehicle, rad/s."""
+        return np.asarray(np.diagonal(self.form.T))
+
+    def response(self, frequency: Array) -> Complex:
+        """H at frequencies in Hz, shape (outputs, F)."""
+        s = 2j * np.pi * frequency
+        w = np.exp(-self.delays[:, np.newaxis] * s)
+        x = self.form.states(s, self.into @ np.concatenate([w, s * w]))
+        parts = [rows @ w if p == 0 else s**p * (rows @ w) for p, rows in self.direct]
+        parts += [rows @ x if p == 0 else s**p * (rows @ x) for p, rows in self.rows]
+        return np.asarray(sum(parts, start=np.zeros((1, 1), dtype=complex)))
+
+    def elevation_density(self, frequency: Array) -> Array:
+        """S_w at frequencies in Hz, m²/Hz."""
+        per_hertz = 2 * np.pi / self.speed
+        return np.asarray(per_hertz * self.spectrum.density(per_hertz * frequency))
+
+    def pieces(self) -> Iterator[tuple[slice, Array, Array, Array]]:
+        """Panels by turns: which, their points (F,), weights (F,) and lengths (P,)."""
+        for start in range(0, len(self.edges) - 1, _PANELS_TOGETHER):
+            some = self.edges[start : start + _PANELS_TOGETHER + 1]
+            yield slice(start, start + len(some) - 1), *gauss_points(some), np.diff(some)
+
+    def integrals(self) -> Integrals:
+        """∫ |W|² S_y df on every panel, for every gain and output.
+
+        Raises
+        ------
+        InputError : an undamped mode that takes part in an output.
+        """
+        undamped, per_panel = self._undamped(), self._rounding()
+        parts: list[tuple[Array, Array]] = []
+        squares: Array | float = 0.0
+        in_line: Array | float = 0.0
+        for which, f, df, length in self.pieces():
+            H = self.response(f)
+            S_y = (H.real**2 + H.imag**2) * self.elevation_density(f)
+            S = np.stack([gain.power(f) * S_y for gain in self.gains])
+            if undamped.size:
+                near = np.abs(f - undamped[:, np.newaxis]).min(axis=0) < _LINE * f
+                in_line += S[..., near] @ df[near]
+            squares += S**2 @ df
+            by_panel = (*S.shape[:-1], length.size, -1)
+            values = (S * df).reshape(by_panel).sum(axis=-1)
+            errors = gauss_errors(S.reshape(by_panel), length) + values * per_panel[which]
+            parts.append((values, errors))
+        values, errors = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+        found = Integrals(self.edges, values, errors, np.asarray(squares))
+        if undamped.size and (np.asarray(in_line) > _MOST_IN_LINE * found.mean_square).any():
+            raise InputError(
+                f"vehicle: found modes without damping ({', '.join(f'{f:.3g}' for f in undamped)} "
+                "Hz) that take part in the motion asked for: they never settle, and there is no "
+                "stationary ride; expected a damping ratio above "
+                f"{UNDAMPED:g} (give the dampers, or the body, a damping above 0)"
+            )
+        return found
+
+    def _undamped(self) -> Array:
+        """Frequencies of undamped modes, Hz, each once."""
+        roots = self.eigenvalues[self.eigenvalues.imag > 0]
+        least = np.maximum(UNDAMPED * np.abs(roots), 10 * _EPSILON * np.abs(roots).max(initial=0.0))
+        return np.unique((np.abs(roots[-roots.real < least]) / (2 * np.pi)).round(6))
+
+    def _rounding(self) -> Array:
+        """Relative error of every panel's integral from the rounding of the poles beside it.
+
+        They are known to ε max|λ|; half the distance to a pole makes the integrand four times.
+        """
+        poles = self.eigenvalues / (2j * np.pi)
+        away = distances(self.edges[:-1], self.edges[1:], poles)
+        moved = _EPSILON * np.abs(poles).max()
+        return np.asarray(10 * _EPSILON + 2 * moved / np.maximum(away, moved))
+
+
+def process(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speed: float,
+    spectrum: Spectrum,
+    gains: Sequence[Gain] = (PLAIN,),
+    *,
+    band: tuple[float, float] = BAND_HZ,
+    ends: Sequence[float] = (),
+) -> Process:
+    """Outputs as stationary processes, from matrices in hand.
+
+    Parameters
+    ----------
+    m, rows : of one vehicle, ``VehicleModel.matrices`` and ``VehicleModel.output_rows``.
+    places : of the wheelsets, m forward (``Vehicle.wheelset_positions``). speed : V, m/s, > 0.
+    gains : weightings to integrate with. band : from and to, Hz. ends : where panels must end, Hz.
+
+    Raises
+    ------
+    InputError : speed ≤ 0, an unstable vehicle, a spectrum with nothing in the band.
+    """
+    check_speed(speed)
+    form = triangular(m)
+    low, high = covered_band(spectrum, speed, band)
+    delays = (places[0] - np.asarray(places, dtype=float)) / speed
+    poles = np.concatenate([
+        np.diagonal(form.T) / (2j * np.pi),
+        speed * np.asarray(spectrum.poles, dtype=complex) / (2 * np.pi),
+        *(gain.poles for gain in gains),
+    ])  # fmt: skip
+    poles = poles[poles.real >= 0]  # the others are their mirror images in the imaginary axis
+    marks = np.concatenate([speed * np.asarray(spectrum.breakpoints) / (2 * np.pi), ends])
+    marks = np.unique(marks[(marks > low) & (marks < high)])
+    edges = graded_panels([low, *marks, high], poles, 1 / max(float(np.ptp(delays)), 1 / high))
+    return Process(
+        form,
+        tuple((p, rows[k] @ form.left) for p, k in enumerate("dva") if rows[k].any()),
+        tuple((p, rows[k]) for p, k in enumerate(("w", "dw", "ddw")) if rows[k].any()),
+        form.right @ np.hstack([m.K_w, m.C_w]),
+        delays,
+        speed,
+        spectrum,
+        edges,
+        tuple(gains),
+    )
+
+
+@lru_cache(maxsize=32)
+def weighted(weight: Weighting) -> Gain:
+    """|W(f)|² of a frequency weighting, of its factors' real and imaginary parts at s = jω."""
+    factors = [tuple((*[0.0] * (3 - len(p)), *p) for p in pair) for pair in weight.factors()]
+
+    def power(f: Array) -> Array:
+        square = (2 * np.pi * f) ** 2
+        top, bottom = np.ones_like(f), np.ones_like(f)
+        for (a, b, c), (d, e, g) in factors:
+            top *= (c - a * square) ** 2 + b**2 * square
+            bottom *= (g - d * square) ** 2 + e**2 * square
+        return np.asarray(top / bottom)
+
+    return Gain(power, weight.poles() / (2j * np.pi))
+
+
+@lru_cache(maxsize=1)
+def sperling() -> Gain:
+    """B(f)² of Sperling's vertical comfort weighting, and its denominator's roots."""
+    even, odd = np.array([-0.277, 0.0, 1.0]), np.array([-0.0368, 0.0, 1.563, 0.0])
+    roots = np.roots(np.polyadd(np.polymul(even, even), np.polymul(odd, odd)))
+    return Gain(lambda f: np.asarray(sperling_weighting(f) ** 2), roots.astype(complex))
+
+
+def covered_band(
+    spectrum: Spectrum, speed: float, band: tuple[float, float]
+) -> tuple[float, float]:
+    """The band, Hz, as far as the spectrum reaches at this speed.
+
+    Raises
+    ------
+    InputError : a spectrum with nothing in the band.
+    """
+    low, high = band
+    if spectrum.active_band is not None:
+        shortest, longest = spectrum.active_band
+        low, high = max(low, speed / longest), min(high, speed / shortest)
+    if low >= high:
+        raise InputError(f"spectrum {spectrum.name}: found nothing of it within {band[0]:.4g}-"
+                         f"{band[1]:.4g} Hz at {3.6 * speed:g} km/h; expected wavelengths that a "
+                         "ride feels (another speed or spectrum)")  # fmt: skip
+    return low, high
+
+
+def relative(error: Array, value: Array) -> Array:
+    """Error over value, 0 where the value is 0."""
+    return np.asarray(np.divide(error, value, out=np.zeros_like(value), where=value > 0))

@@ -1,0 +1,96 @@
+r"""Integrals over frequency of what is smooth but for its poles.
+
+Panels shrink towards each pole as far as it is from the real axis (a mode of damping ratio 2e-6
+included), and Gauss's rule converges geometrically on each. How fast, the Legendre coefficients
+c_k of the integrand on a panel tell from the same points: where they decay as ρ^-k, the rule of n
+points, exact up to the order 2n - 1, is wrong by the order of
+
+.. math:: (b - a)\, |c_{2n}| \approx (b - a)\, |c_{n-1}|\, \rho^{-(n+1)} .
+
+Source: L.N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, Theorem 19.3
+(Gauss's rule beside a pole) and Chapter 8 (decay of the coefficients).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from railride.numeric import Array
+
+GAUSS_POINTS = 10
+REACH = 1.5  # longest panel, in distances from it to the nearest pole
+TINY = 1e-12  # of the highest frequency: what lies so close to a pole on the axis is not resolved
+_CAUTION = 8.0  # factor on the estimated error
+_TAIL = 3  # coefficients that tell how fast they decay: even and odd ones are not alike
+
+
+def graded_panels(ends: Sequence[float], poles: NDArray[np.complex128], period: float) -> Array:
+    """Edges of panels that shrink towards poles.
+
+    Parameters
+    ----------
+    ends : ascending; the integrand is smooth between two of them.
+    poles : in the complex plane of f; each acts with its mirror image in the real axis.
+    period : of the fastest oscillation of the integrand along f; no panel is longer.
+
+    Returns
+    -------
+    array : ascending edges; every panel is at most :data:`REACH` times as long as it is away from
+        the nearest pole.
+    """
+    start, length = np.asarray(ends[:-1], dtype=float), np.diff(ends)
+    pieces = np.ceil(length / period * (1 - 1e-12)).astype(int)
+    number = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    of, step = np.repeat(np.arange(start.size), pieces), length / pieces
+    a, b = start[of] + number * step[of], start[of] + (number + 1) * step[of]
+    done: list[Array] = []
+    tiny = TINY * ends[-1]
+    while a.size:
+        fits = b - a <= np.maximum(REACH * distances(a, b, poles), tiny)
+        done.append(a[fits])
+        a, b = a[~fits], b[~fits]
+        middle = (a + b) / 2
+        a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
+    return np.concatenate([np.sort(np.concatenate(done)), ends[-1:]])
+
+
+def distances(a: Array, b: Array, poles: NDArray[np.complex128]) -> Array:
+    """How far each panel from a to b (P,) is from the nearest pole."""
+    x, y = poles.real[:, np.newaxis], poles.imag[:, np.newaxis]
+    beside = np.maximum(np.maximum(a - x, x - b), 0.0)
+    return np.asarray(np.sqrt((beside**2 + y**2).min(axis=0)))
+
+
+def gauss_points(edges: Array) -> tuple[Array, Array]:
+    """Points and weights of Gauss's rule on every panel, each of shape (panels · points,)."""
+    x, w, _ = _rule(GAUSS_POINTS)
+    half = np.diff(edges)[:, np.newaxis] / 2
+    middle = (edges[:-1] + edges[1:])[:, np.newaxis] / 2
+    return (middle + half * x).ravel(), (half * w).ravel()
+
+
+def gauss_errors(values: Array, length: ArrayLike) -> Array:
+    """Estimated error of Gauss's rule on every panel, shape (..., P).
+
+    values : the integrand, ≥ 0, at each panel's points, (..., P, points). length : of the panels.
+    """
+    _, _, last = _rule(values.shape[-1])
+    c = np.abs(values @ last)
+    before, tail = c[..., :_TAIL].max(axis=-1), c[..., _TAIL:].max(axis=-1)
+    decay = np.minimum(tail / np.maximum(before, np.finfo(float).tiny), 1.0)
+    times = (values.shape[-1] + 1) / _TAIL
+    return np.asarray(_CAUTION * np.asarray(length) * tail * decay**times)
+
+
+@lru_cache(maxsize=16)
+def _rule(points: int) -> tuple[Array, Array, Array]:
+    """Points and weights on [-1, 1]; values → the last Legendre coefficients, (points, 2 _TAIL)."""
+    x, w = np.polynomial.legendre.leggauss(points)
+    orders = np.arange(points)
+    to_coefficients = np.polynomial.legendre.legvander(x, points - 1) * w[:, np.newaxis]
+    to_coefficients = to_coefficients * (orders + 0.5)
+    return x, w, to_coefficients[:, -2 * _TAIL :]

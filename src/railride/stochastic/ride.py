@@ -1,0 +1,148 @@
+r"""Comfort values of a stationary ride, from the spectrum alone.
+
+.. math:: \overline{a_w^2} = \int_{f_1}^{f_2} |W(f)|^2\, |H(f)|^2\, S_w(f)\, df
+
+A run of duration T is a sample. Of a Gaussian process of one-sided spectrum S_a, the mean square
+over T scatters with the variance ∫ S_a² df / T, so that its root has the relative standard error
+½ √(∫ S_a² df / T) / ∫ S_a df.
+
+Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Chapters 7 and 9;
+J.S. Bendat, A.G. Piersol, Random Data, 4th ed., Eq 8.49 (variance).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from railride.comfort import wz_from_rms
+from railride.numeric import Array, Matrices
+from railride.spectra import Spectrum
+from railride.stochastic.process import BAND_HZ, PLAIN, process, relative, sperling, weighted
+from railride.vehicle import Output, VehicleModel
+from railride.weightings import Weighting, weighting
+
+STATED = 1e-6  # relative error above which a value is remarked on
+
+
+@dataclass(frozen=True)
+class StochasticRide:
+    """What a stationary ride over a track of a spectrum comes to, arrays over positions.
+
+    a_rms, a_wrms : m/s², the r.m.s. and weighted r.m.s. of the floor's acceleration, 0.05-80 Hz.
+    wz : Sperling's ride index. variance_time : ∫ S² df/(∫ S df)² of the weighted spectrum, s.
+    a_rms_error, a_wrms_error, wz_error : estimated relative errors of the integration, rounding of
+    the poles included. remarks : which of them are above 1e-6.
+    """
+
+    positions: tuple[float, ...]
+    a_rms: Array
+    a_wrms: Array
+    wz: Array
+    variance_time: Array
+    a_rms_error: Array
+    a_wrms_error: Array
+    wz_error: Array
+    remarks: tuple[str, ...] = ()
+
+    def standard_error(self, duration: float) -> Array:
+        """Standard error of a_wrms over a run of ``duration`` seconds, m/s²."""
+        return np.asarray(self.a_wrms * np.sqrt(self.variance_time / duration) / 2)
+
+
+def stochastic_ride(
+    model: VehicleModel,
+    speed: float,
+    spectrum: Spectrum,
+    at: Sequence[float] = (0.0,),
+    *,
+    floor: str = "smooth",
+    weight: Weighting | None = None,
+    band: tuple[float, float] = BAND_HZ,
+    **changes: ArrayLike,
+) -> StochasticRide:
+    """Exact comfort values of a vehicle at a speed over a track of a spectrum.
+
+    Parameters
+    ----------
+    speed : V in m/s, > 0. at : points of the floor, m forward of the body's middle.
+    spectrum : of the track (a measured track's by :func:`measured_spectrum`).
+    floor : how the floor is read, "smooth" or "polygon". weight : default W_k.
+    band : from and to, Hz. changes : parameter values in place of the vehicle's.
+
+    Raises
+    ------
+    InputError : speed ≤ 0, a point off the body, an unstable vehicle, a mode without damping that
+        is felt at one of the points, a spectrum with nothing in the band at this speed.
+
+    Examples
+    --------
+    >>> from railride import derive_vehicle, load_vehicle, spectrum
+    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
+    >>> ride = stochastic_ride(coach, 200 / 3.6, spectrum("erri_low"), floor="polygon")
+    >>> round(float(ride.a_wrms[0]), 3), bool(ride.a_wrms_error[0] < 1e-9)
+    (0.328, True)
+    """
+    m, rows = in_hand(model, [model.floor(x, floor) for x in at], changes)
+    gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
+    places = model.vehicle.wheelset_positions
+    found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
+    (a, a_w, a_B), (a_error, w_error, B_error) = np.sqrt(found.mean_square), found.error / 2
+    wz_error = 0.3 * B_error
+    remarks = [
+        f"{3.6 * speed:.6g} km/h, {x:g} m: the integral of {name} is uncertain by {error[k]:.0e} of"
+        " its value (a mode with next to no damping?)"
+        for name, error in (("a_rms", a_error), ("a_wrms", w_error), ("W_z", wz_error))
+        for k, x in enumerate(at)
+        if error[k] > STATED
+    ]
+    return StochasticRide(
+        positions=tuple(at),
+        a_rms=a,
+        a_wrms=a_w,
+        wz=np.asarray(wz_from_rms(a_B)),
+        variance_time=relative(found.squares[1], found.mean_square[1] ** 2),
+        a_rms_error=a_error,
+        a_wrms_error=w_error,
+        wz_error=wz_error,
+        remarks=tuple(remarks),
+    )
+
+
+def weighted_rms(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speed: float,
+    spectrum: Spectrum,
+    weight: Weighting,
+    band: tuple[float, float] = BAND_HZ,
+) -> tuple[Array, Array]:
+    """Weighted r.m.s. of outputs from matrices in hand, and its estimated relative error, (outputs,).
+
+    Arguments and errors as for :func:`railride.stochastic.process`. For sweeps: nothing is derived,
+    looked up or named.
+
+    Examples
+    --------
+    >>> from railride import derive_vehicle, load_vehicle, spectrum
+    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
+    >>> rows = coach.output_rows([coach.floor(0.0, "polygon")])
+    >>> a_w, _ = weighted_rms(coach.matrices(), rows, coach.vehicle.wheelset_positions, 200 / 3.6,
+    ...                       spectrum("erri_low"), weighting("Wk"))
+    >>> round(float(a_w[0]), 3)
+    0.328
+    """
+    gains = (weighted(weight),)
+    found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
+    return np.sqrt(found.mean_square[0]), found.error[0] / 2
+
+
+def in_hand(
+    model: VehicleModel, outputs: Sequence[Output], changes: Mapping[str, ArrayLike]
+) -> tuple[Matrices, dict[str, Array]]:
+    """Matrices and output rows as numbers."""
+    return model.matrices(**changes), model.output_rows(outputs, **changes)
