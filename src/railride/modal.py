@@ -3,12 +3,9 @@ r"""Modes of the linear vehicle: natural frequencies, damping ratios, labelled s
 .. math:: (\lambda^2 M + \lambda C + K)\,\varphi = 0, \qquad f = \frac{|\lambda|}{2\pi}, \qquad
           \zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}
 
-A mode is named after the free motion that holds most of its kinetic energy. The free body's heave,
-pitch and bending shapes and the bogies' heave and pitch, b_k, are orthogonal in M and complete, so
-that the shares |b_kᵀ M φ|² / (b_kᵀ M b_k · φ* M φ) add up to one.
+A mode is named after what moves, see :mod:`railride.naming`.
 
-Source: D.E. Newland, Mechanical Vibration Analysis and Computation, 1989, Chapters 6 and 8; the
-shares are R.J. Allemang's modal assurance criterion with the mass matrix as weight.
+Source: D.E. Newland, Mechanical Vibration Analysis and Computation, 1989, Chapters 6 and 8.
 """
 
 from __future__ import annotations
@@ -20,11 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from railride.errors import InputError
 from railride.firstorder import first_order
+from railride.naming import DAMPER, free_motions, motions, names, participation, settled
 from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
-DAMPER = "damper"  # label of a real eigenvalue: a damper relaxing on its elastic mount
+__all__ = ["DAMPER", "UNSTABLE", "Mode", "eigen", "free_motions", "modes", "refuse_unstable",
+           "undamped_frequencies"]  # fmt: skip
+
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
+FOREMOST = 1 - 1e-6  # of the largest entry: what is as large is equal to it
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,10 @@ class Mode:
 
     frequency_hz: |λ|/2π. damping_ratio: -Re λ/|λ|. eigenvalue: λ with Im λ ≥ 0, rad/s.
     shape: φ in the model's coordinates, complex, largest entry 1. label: what moves most.
-    share: the part of the mode's kinetic energy in motions of this name, 0 to 1.
+    share: the part of the mode's kinetic energy in motions of this name, 0 to 1; of a real
+    eigenvalue, which has hardly any, their participation.
+    phase: "in phase" or "anti-phase" where neighbouring bogies move with or against each other in a
+    mode of theirs, else "".
     """
 
     frequency_hz: float
@@ -42,10 +46,14 @@ class Mode:
     share: float
     eigenvalue: complex
     shape: NDArray[np.complex128]
+    phase: str = ""
 
 
 def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     """All modes of a vehicle, by frequency.
+
+    Where eigenvalues are repeated, as of bogies that do not feel each other, the shapes are those
+    in which the bogies move in phase and in anti-phase.
 
     Raises
     ------
@@ -58,27 +66,35 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     ['heave', 'pitch', 'bogie heave']
     """
     A = model.matrices(**changes)
-    eigenvalues, vectors = eigen(A)
-    refuse_unstable(eigenvalues)
-    kept = eigenvalues.imag >= 0
-    eigenvalues, shapes = eigenvalues[kept], first_order(A).q_x @ vectors[:, kept]
-    order = np.argsort(np.abs(eigenvalues), kind="stable")
-    eigenvalues, shapes = eigenvalues[order], shapes[:, order]
-    labels, basis = free_motions(model, A)
-    shares = _energy_shares(A.M, basis, shapes)
-    named = _assign(shares, oscillating=eigenvalues.imag > 0)
-    names = [DAMPER if k is None else labels[k] for k in named]
+    x = first_order(A)
+    roots, vectors = eigen(A)
+    refuse_unstable(roots)
+    free = motions(model, A)
+    roots, vectors = settled(free, A, x, roots, vectors)
+    parts = participation(free, x, vectors)
+    kept = np.flatnonzero(roots.imag >= 0)
+    kept = kept[np.argsort(np.abs(roots[kept]), kind="stable")]
+    roots, shapes = roots[kept], x.q_x @ vectors[:, kept]
+    strokes = int((~x.inertial).sum())
+    named = names(free, A.M, shapes, roots.imag > 0, parts[:, kept], strokes)
     return tuple(
         Mode(
             frequency_hz=float(abs(root) / (2 * np.pi)),
             damping_ratio=float(-root.real / abs(root)) if root else 0.0,
-            label=names[k],
-            share=float(sum(shares[i, k] for i, x in enumerate(labels) if x == names[k])),
+            label=name.label,
+            share=name.share,
             eigenvalue=complex(root),
-            shape=shapes[:, k] / shapes[np.argmax(np.abs(shapes[:, k])), k],
+            shape=_largest_one(shape),
+            phase=name.phase,
         )
-        for k, root in enumerate(eigenvalues)
+        for root, shape, name in zip(roots, shapes.T, named, strict=True)
     )
+
+
+def _largest_one(shape: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """The shape with its largest entry 1: the foremost of several that are equal."""
+    size = np.abs(shape)
+    return np.asarray(shape / shape[int(np.argmax(size >= FOREMOST * size.max()))])
 
 
 def undamped_frequencies(A: Matrices) -> Array:
@@ -107,52 +123,3 @@ def refuse_unstable(eigenvalues: NDArray[np.complex128]) -> None:
             f"{root.real:.3g} 1/s; expected every motion to decay (check the signs of stiffness "
             "and damping)"
         )
-
-
-def free_motions(model: VehicleModel, A: Matrices) -> tuple[list[str], Array]:
-    """Labels, and shapes as columns, of the free body's and the bogies' motions."""
-    n, bogies = A.M.shape[-1], len(model.vehicle.bogies)
-    inertial = int(A.inertial.sum())
-    own = inertial - 2 * bogies
-    labels = ["heave", "pitch", *(f"bending {k}" for k in range(1, own - 1))]
-    basis = np.eye(n)[:, :inertial]
-    basis[:own, :own] = _free_body_shapes(model, A.M[:own, :own])
-    return labels + ["bogie heave", "bogie pitch"] * bogies, basis
-
-
-def _free_body_shapes(model: VehicleModel, M: Array) -> Array:
-    """Heave, pitch about the mass centre, and the bending shapes, as columns."""
-    heave = model.lift[: len(M)]
-    # Pitch: of a rigid body its second coordinate, else the nodes in line, from the front.
-    x = np.array([0.0, 1.0]) if model.body.segments == 1 else np.linspace(0.5, -0.5, len(M))
-    pitch = x - heave * (heave @ M @ x) / (heave @ M @ heave)
-    K = model.free_body_stiffness()
-    inverse = np.linalg.inv(np.linalg.cholesky(M))
-    _, vectors = np.linalg.eigh(inverse @ K @ inverse.T)
-    return np.column_stack([heave, pitch, inverse.T @ vectors[:, 2:]])
-
-
-def _energy_shares(M: Array, basis: Array, shapes: NDArray[np.complex128]) -> Array:
-    """Share of motion k in mode j: array (motions, modes); each column adds up to 1."""
-    projection = np.abs(basis.T @ M @ shapes) ** 2
-    own = np.einsum("ik,ij,jk->k", basis, M, basis)
-    shares = projection / own[:, np.newaxis]
-    return np.asarray(shares / shares.sum(axis=0))
-
-
-def _assign(shares: Array, oscillating: NDArray[np.bool_]) -> list[int | None]:
-    """The motion after which each mode is named: largest shares first, none given away twice.
-
-    Each motion has two eigenvalues to give: an oscillating mode takes both, a real one takes one.
-    What is left over is the relaxation of a damper on its mount.
-    """
-    left = np.full(shares.shape[0], 2)
-    need = np.where(oscillating, 2, 1)
-    named: list[int | None] = [None] * shares.shape[1]
-    oscillating_first = np.where(oscillating, -shares, 1 - shares)
-    for flat in np.argsort(oscillating_first, axis=None, kind="stable"):
-        motion, mode = divmod(int(flat), shares.shape[1])
-        if named[mode] is None and left[motion] >= need[mode]:
-            named[mode] = motion
-            left[motion] -= need[mode]
-    return named

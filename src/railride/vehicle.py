@@ -259,8 +259,9 @@ class VehicleModel:
         M, stiffness = matrices.condensed
         own = np.flatnonzero(matrices.inertial)
         squares = symmetric_eigenvalues(M, stiffness).reshape(-1, own.size)
-        lowest = np.maximum(squares[:, 0], 0.0)
-        spread = squares[:, -1] / np.maximum(lowest, np.finfo(float).tiny)
+        # Rounding may even turn the lowest negative: that is as far apart as can be.
+        lowest = np.maximum(squares[:, 0], 1e-30 * squares[:, -1])
+        spread = squares[:, -1] / lowest
         if not (spread <= SPREAD).all():
             worst = int(np.argmax(spread))
             of = (-1, own.size, own.size)

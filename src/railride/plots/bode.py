@@ -109,15 +109,15 @@ def _mark_zeros(ax: Axes, responses: Sequence[BodeResponse]) -> None:
             style: dict[str, Any] = {"marker": mark, "linestyle": "none", "markersize": 4,
                                      "clip_on": False, "markerfacecolor": "white"}  # fmt: skip
             colour = _LINES[k % len(_LINES)][0]
-            ax.plot(inside, np.full(inside.size, 0.0 if mark == "v" else 0.03),
-                               transform=where, markeredgecolor=colour, **style)  # fmt: skip
+            height = np.full(inside.size, 0.0 if mark == "v" else 0.03)
+            ax.plot(inside, height, transform=where, markeredgecolor=colour, **style)
             if inside.size and key not in named:
                 named.add(key)
                 (entry,) = ax.plot(
                     [], [], markeredgecolor=canvas.TRACK, **style,
                     label=f"zeros (k + ½)·V/{zeros.distance:g} m, {zeros.cause}",
                 )  # fmt: skip
-                entry.set_in_layout(False)
+                entry.set_in_layout(False)  # of no extent, it would be looked for at 0, 0
 
 
 def _mark_modes(top: Axes, others: Sequence[Axes], response: BodeResponse) -> None:

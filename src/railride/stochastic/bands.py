@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from railride.numeric import Array
 from railride.spectra import Spectrum, coverage_remark
 from railride.stochastic.process import PLAIN, process, weighted
-from railride.stochastic.ride import in_hand
+from railride.stochastic.ride import floor_in_hand
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -87,7 +87,7 @@ def third_octaves(
 
     edges = band_edges()
     gains = (PLAIN, weighted(weight or weighting("Wk")))
-    m, rows = in_hand(model, [model.floor(x, floor) for x in at], changes)
+    m, rows = floor_in_hand(model, at, floor, changes)
     found = process(
         m, rows, model.vehicle.wheelset_positions, speed, spectrum, gains,
         band=(float(edges[0]), float(edges[-1])), ends=edges.tolist(),

@@ -16,7 +16,7 @@ from railride.errors import InputError
 from railride.numeric import Array
 from railride.spectra import Spectrum, check_speed, coverage_remark
 from railride.stochastic.process import PLAIN, process, sperling, weighted
-from railride.stochastic.ride import STATED, in_hand
+from railride.stochastic.ride import STATED, floor_in_hand
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -74,7 +74,7 @@ def comfort_map(
     places = along_the_car(model) if at is None else np.asarray(at, dtype=float)
     if not len(speeds) or not places.size:
         raise InputError("comfort map: found no speeds or no points; expected at least one of each")
-    m, rows = in_hand(model, [model.floor(float(x), floor) for x in places], changes)
+    m, rows = floor_in_hand(model, places.tolist(), floor, changes)
     gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
     parts, remarks = [], []
     for number, speed in enumerate(speeds, start=1):

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from railride.numeric import Array
 
-GAUSS_POINTS = 10
+GAUSS_POINTS = 12
 REACH = 1.5  # longest panel, in distances from it to the nearest pole
 TINY = 1e-12  # of the highest frequency: what lies so close to a pole on the axis is not resolved
 _CAUTION = 8.0  # factor on the estimated error

@@ -30,7 +30,7 @@ from railride.modal import Mode, modes
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum
 from railride.stochastic.process import PLAIN, process, weighted
-from railride.stochastic.ride import in_hand
+from railride.stochastic.ride import floor_in_hand
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -80,7 +80,7 @@ def mode_shares(
     """
     import pandas as pd
 
-    m, rows = in_hand(model, [model.floor(x, floor) for x in at], changes)
+    m, rows = floor_in_hand(model, at, floor, changes)
     gain = weighted(weight or weighting("Wk"))
     places = model.vehicle.wheelset_positions
     whole = process(m, rows, places, speed, spectrum, (gain, PLAIN))
