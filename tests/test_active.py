@@ -81,7 +81,7 @@ def test_a_real_actuator_and_its_high_pass_are_the_closed_form_quarter_cars(orde
 
 
 def test_skyhook_damps_heave_as_the_quarter_car_says():
-    """The loop's poles hold the roots of the quarter car's determinant, and heave is damped more."""
+    """The loop's poles hold the roots of the quarter car's determinant; heave is damped more."""
     vehicle, gain = load_vehicle("cati2024"), 100e3
     m, b = vehicle.body.mass / 2, vehicle.bogies[0]
     s = np.poly1d([1.0, 0.0])
@@ -128,7 +128,7 @@ def test_passive_response_with_delays_is_the_vehicles():
 
 
 def test_loop_on_names_is_python_controls_feedback():
-    """interconnect by names against feedback with the controller's matrices put in place by hand."""
+    """interconnect by names against feedback, with the controller's matrices put in place."""
     model = random_model(3, 3)
     loop = skyhook(model, 60e3, bandwidth=8.0, order=1)
     outputs = [model.floor(1.0), *loop.measured]
@@ -145,7 +145,7 @@ def test_loop_on_names_is_python_controls_feedback():
 
 
 def test_white_noise_mean_square_is_the_lyapunov_equations():
-    """∫|H|² df of the loop's travel and force under one white ẇ: trace of C X Cᵀ, A X + X Aᵀ = -BBᵀ."""
+    """∫|H|² df of travel and force under one white ẇ is C X Cᵀ with A X + X Aᵀ = -B Bᵀ."""
     loop = skyhook(paper_coach(2, bending_damping=0.02), 90e3, bandwidth=12.0)
     system = loop.closed(["secondary_1_deflection"])
     B, C = system.B[:, 4:5], system.C
@@ -277,9 +277,9 @@ def test_signals_are_of_the_structure_over_the_bogie():
     model = paper_coach(4)
     signals, x_b = suspension_signals(model), model.vehicle.bogies[0].position
     s = 3.0 + 20j
-    asked = [signals["body_1_velocity"], signals["body_1_acceleration"], signals["secondary_1_rate"],
-             signals["secondary_1_deflection"], signals["bogie_1_velocity"],
-             signals["damper_1_rate"], model.floor(x_b, "polygon", 1)]  # fmt: skip
+    names = ["body_1_velocity", "body_1_acceleration", "secondary_1_rate", "secondary_1_deflection",
+             "bogie_1_velocity", "damper_1_rate"]  # fmt: skip
+    asked = [*(signals[name] for name in names), model.floor(x_b, "polygon", 1)]
     body, acceleration, rate, deflection, bogie, damper, floor = state_space(model, asked)(s)
     np.testing.assert_allclose(body, floor, rtol=1e-12)
     np.testing.assert_allclose(
@@ -314,7 +314,7 @@ def test_lqg_trades_force_for_comfort():
 
 
 def test_lqg_is_optimal_for_the_cost_it_was_designed_for():
-    """With its own independent noises, no nearby gain of the actuators has a lower cost (Lyapunov)."""
+    """With its own independent noises, no nearby gain of the actuators has a lower cost."""
     model, sizes = paper_coach(2, bending_damping=0.02), (0.1, 5e-3, 1e3)
     loop = lqg(model, V, LOW, acceleration=sizes[0], travel=sizes[1], force=sizes[2])
     d = _design(model, V, (0.0,), weighting("Wk"), None, 2, {})
@@ -340,7 +340,7 @@ def test_lqg_is_optimal_for_the_cost_it_was_designed_for():
 
 
 def test_lqg_noise_has_the_spectrum_of_erri():
-    """White noise through the shaping filter has the density of the spectrum, at every frequency."""
+    """White noise through the shaping filter has the density of the spectrum, at any frequency."""
     f = np.geomspace(0.05, 80, 50)
     slow, fast = V * np.array(ERRI_POLES)
     s = 2j * np.pi * f
@@ -473,8 +473,8 @@ def test_switching_follows_the_rule_and_each_step_is_exact():
     for i in range(0, len(settings) - 1, 7):
         c = np.where(hard[:, i], 140e3, 10e3) - 70e3
         A = plant.A - plant.B[:, k:] @ np.diag(c) @ plant.C[2:]
-        peer = scipy.signal.lsim((A, plant.B[:, :k], np.eye(n), np.zeros((n, k))), u[:, i : i + 2].T,
-                                 [0.0, dt], X0=states[:, i])[1]  # fmt: skip
+        here = (A, plant.B[:, :k], np.eye(n), np.zeros((n, k)))
+        peer = scipy.signal.lsim(here, u[:, i : i + 2].T, [0.0, dt], X0=states[:, i])[1]
         assert np.abs(peer[1] - states[:, i + 1]).max() < 1e-9 * np.abs(states).max()
 
 

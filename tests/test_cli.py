@@ -436,7 +436,7 @@ def test_deriving_loads_no_more_than_it_needs(tmp_path):
 def test_help_shows_an_example_that_runs(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     texts = [command.__doc__ for command in commands()] + [railride.cli.app.info.help]
-    assert len(texts) == 5
+    assert len(texts) == 6
     for text in texts:
         (example,) = re.findall(r"Example:  railride (.+)", text)
         name = example.split()[0]

@@ -12,9 +12,9 @@ the springs, and the body may ride along with creeping bogies. It is named after
 .. math:: p_{kj} = w_j^T P_k v_j , \qquad \sum_k p_{kj} = 1 , \quad \sum_j p_{kj} = 2 ,
 
 the part of the eigenvector v_j that lies in height and rate of motion k, seen by the left
-eigenvector w_j. Without damping it is the share of kinetic energy. Strokes of dampers on elastic
-mounts are one state each, and as many real eigenvalues, those that they participate in most, are
-their relaxation.
+eigenvector w_j. Without damping it is the share of kinetic energy. A motion that names no
+oscillating mode names a real one at least. Strokes of dampers on elastic mounts are one state each,
+and as many real eigenvalues, those that they participate in most, are their relaxation.
 
 Source: R.J. Allemang, Sound and Vibration 37 (2003), No. 8, 14-21: modal assurance, here with M as
 weight. I.J. Pérez-Arriaga, G.C. Verghese, F.C. Schweppe, IEEE Trans. PAS 101 (1982), 3117-3125:
@@ -112,6 +112,8 @@ def settled(
     """
     G = _coupling(free, A, x)
     E = energy(A, x)
+    # Rounding may split a repeated real eigenvalue into a pair.
+    roots = np.where(np.abs(roots.imag) <= SAME * np.abs(roots), roots.real, roots)
     values, result = roots.copy(), vectors.copy()
     done = np.zeros(roots.size, dtype=bool)
     for k, root in enumerate(roots):
@@ -202,11 +204,15 @@ def names(
     found: dict[int, tuple[str, float]] = {}
     for j, k in zip(pairs, assign(shares[:, pairs], left), strict=True):
         found[int(j)] = labels[k], float(shares[k, j])
+        left[k] -= 1
     order = real[np.argsort(-parts[-1, real], kind="stable")]
     for j in order[:strokes]:
         found[int(j)] = DAMPER, float(parts[-1, j])
-    for j in order[strokes:]:
-        k = int(np.argmax(creeping[:, j]))
+    creeps = np.sort(order[strokes:])
+    unnamed = np.repeat(np.arange(left.size), left)[: creeps.size]
+    given = np.argmax(creeping[:, creeps], axis=0)
+    given[assign(creeping[unnamed][:, creeps].T, np.ones_like(creeps))] = unnamed
+    for j, k in zip(creeps, given, strict=True):
         found[int(j)] = labels[k], float(creeping[k, j])
     return [Name(*found[j], _phase(free, found[j][0], amplitudes[:, j]))
             for j in range(shapes.shape[1])]  # fmt: skip

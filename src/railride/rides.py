@@ -57,7 +57,8 @@ class Record:
 class Case:
     """One speed and one point of the floor, rated. SI units; None where only a run would tell.
 
-    standard_error : of a_wrms, for a run of this length over this spectrum.
+    standard_error : of a_wrms, for a run of this length over this spectrum; of an exact value from
+    a measured track alone, for that track's length.
     record : what is behind the values, None if they come from the spectrum alone.
     """
 
@@ -149,13 +150,15 @@ def ride(
         middle.
     length : m, the rated section; with a file, its last metres. seed : of a synthetic track.
     floor : "smooth" or "polygon". weight : a weighting's name. rate : samples a second.
-    spectral : the exact stochastic values alone, without a time run.
+    spectral : the exact stochastic values alone, without a time run; of a measured track, those of
+        the spectrum that is estimated from the whole of it.
     progress : called with the fraction done.
 
     Raises
     ------
     InputError : anything of this out of its range, all faults together; a track that is shorter
-        than ``length``; an unstable vehicle; ``spectral`` with a measured track.
+        than ``length``; an unstable vehicle; ``spectral`` with a track too short for a spectrum, or
+        with a vehicle that has no stationary ride.
 
     Examples
     --------
@@ -167,11 +170,6 @@ def ride(
     speeds, at = _several(speeds, "speeds"), _several(at, "at")
     _check_arguments(model, speeds, at, length, rate)
     source, weighted_by = load_track(track), weighting(weight)
-    if spectral and isinstance(source, Track):
-        raise InputError(
-            f"track {source.name}: found a measured track, with the exact stochastic value asked "
-            "for; expected a spectrum (run over it instead, or name a spectrum)"
-        )
     road = None if spectral else _road(source, speeds, length, seed)
     cases: list[Case] = []
     remarks = [*model.vehicle.remarks, *model.remarks, *_section(source, length)]
@@ -183,7 +181,7 @@ def ride(
         if speed > FASTEST:
             remarks.append(f"{_kmh(speed)} is faster than trains run: is the speed in m/s?")
         if road is None:
-            cases += _exact_cases(model, speed, exact)
+            cases += _exact_cases(model, speed, exact, of)
         else:
             run = time_run(
                 model, speed, road, at, length=length, floor=floor, weight=weighted_by, rate=rate
@@ -221,6 +219,51 @@ def load_track(track: str | Path | Spectrum | Track) -> Spectrum | Track:
     return read_track(path) if is_file else spectrum(str(track))
 
 
+def exact_spectrum(
+    source: Spectrum | Track, *, needed: bool = True
+) -> tuple[Spectrum | None, list[str]]:
+    """The spectrum that exact values come from, and what to say of it.
+
+    A measured track's is estimated from the whole of it; None where that cannot be and the exact
+    values are not ``needed``.
+
+    Raises
+    ------
+    InputError : a measured track from which no spectrum can be estimated, where it is needed.
+    """
+    if isinstance(source, Spectrum):
+        return source, []
+    try:
+        found = measured_spectrum(source)
+    except InputError as fault:
+        if needed:
+            raise
+        return None, [f"no exact value: {fault}"]
+    return found, [found.remark]
+
+
+def _exact(
+    model: VehicleModel, speed: float, of: Spectrum | None, at: Sequence[float], floor: str,
+    weight: Weighting, *, needed: bool,
+) -> tuple[StochasticRide | None, list[str]]:  # fmt: skip
+    """The exact values at a speed, and remarks; a measured track may hold nothing a ride feels."""
+    if of is None:
+        return None, []
+    try:
+        found = stochastic_ride(model, speed, of, at, floor=floor, weight=weight)
+    except InputError as fault:
+        if needed or not isinstance(of, MeasuredSpectrum):
+            raise
+        return None, [f"no exact value: {fault}"]
+    remarks = list(found.remarks)
+    if isinstance(of, MeasuredSpectrum):
+        shortest, longest = of.wavelengths
+        low, high = speed / longest, speed / shortest
+        remarks.append(f"{_kmh(speed)}: the exact value of {of.name} holds {max(low, 0.05):.2g} to "
+                       f"{min(high, 80.0):.3g} Hz")  # fmt: skip
+    return found, remarks
+
+
 def _rate(
     model: VehicleModel, run: Run, at: Sequence[float], exact: StochasticRide | None,
     weight: Weighting, rate: float,
@@ -252,14 +295,20 @@ def _rate(
     return cases, remarks
 
 
-def _exact_cases(model: VehicleModel, speed: float, exact: StochasticRide | None) -> list[Case]:
+def _exact_cases(
+    model: VehicleModel, speed: float, exact: StochasticRide | None, of: Spectrum | None
+) -> list[Case]:
+    """The exact values alone; those of a measured track have a standard error of their own."""
     if exact is None:
         return []
     kind, segments = model.body.kind, model.body.segments
-    values = zip(exact.positions, exact.a_rms, exact.a_wrms, exact.wz, strict=True)
+    errors: list[float | None] = [None] * len(exact.positions)
+    if isinstance(of, MeasuredSpectrum):
+        errors = list(map(float, exact.standard_error(of.effective_length / speed)))
+    values = zip(exact.positions, exact.a_rms, exact.a_wrms, errors, exact.wz, strict=True)
     return [
-        Case(speed, x, kind, segments, float(a), float(a_w), float(a_w), wz=float(wz))
-        for x, a, a_w, wz in values
+        Case(speed, x, kind, segments, float(a), float(a_w), float(a_w), error, wz=float(wz))
+        for x, a, a_w, error, wz in values
     ]
 
 

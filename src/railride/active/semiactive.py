@@ -71,7 +71,7 @@ class SemiActiveRide:
 
         rows = []
         for k, design in enumerate(DESIGNS):
-            row: dict[str, float] = {}
+            row: dict[str, float | None] = {}
             for x, found in zip(self.positions, self.found[k], strict=True):
                 row[f"a_wrms at {x:g} m [m/s^2]"] = found.a_wrms
                 row[f"MTVV at {x:g} m [m/s^2]"] = found.mtvv

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from railride.rides import Case, RideResult
     from railride.spectra import Spectrum
     from railride.track import Track
+    from railride.vehicle import VehicleModel
 
 RIDE = "The ride"
 
@@ -62,6 +63,15 @@ def ride(
             "--spectral",
             rich_help_panel=RIDE,
             help="The exact stochastic value alone (0.05-80 Hz), without a run.",
+        ),
+    ] = False,
+    travel: Annotated[
+        bool,
+        typer.Option(
+            "--travel",
+            rich_help_panel=RIDE,
+            help="Add the r.m.s. and expected peak, over --length, of suspension travel and (where "
+            "the wheelset's mass is known) wheel load: exact, from the spectrum.",
         ),
     ] = False,
     weighting: Annotated[
@@ -120,21 +130,26 @@ def ride(
         from railride import rides
 
         source = rides.load_track(track)
-        idle = _idle(source, spectral, {"--length": length, "--seed": seed}, extrapolate)
+        idle = _idle(source, spectral, {"--length": length, "--seed": seed}, extrapolate,
+                     travel)  # fmt: skip
         found = rides.ride(
             model, source if not extrapolate else _extrapolated(source), speeds, at=places,
             length=1000.0 if rated is None else rated, seed=1 if number is None else number,
             floor=floor, weight=weighting, spectral=spectral, progress=advance,
         )  # fmt: skip
+        felt = _travel(model, source, extrapolate, speeds, rated) if travel else []
         drawn = None if plots is None else _draw(found, plots)
     remarks = [*found.remarks, *idle]
+    if travel and form == "csv":
+        remarks.append("--travel changes nothing in csv, which holds one table: take json or table")
     text = output.result(
         form,
-        {"track": found.track, "cases": [_row(case) for case in found.cases]},
+        {"track": found.track, "cases": [_row(case) for case in found.cases],
+         **({"outputs": felt} if travel else {})},
         [_flat(case) for case in found.cases],
-        lambda: _table(found),
+        lambda: _table(found) + ("\n" + _travel_table(felt) if travel else ""),
         remarks,
-    )
+    )  # fmt: skip
     output.write(text, to)
     output.remark(remarks)
     if drawn:
@@ -142,8 +157,9 @@ def ride(
 
 
 def _idle(
-    source: Spectrum | Track, spectral: bool, given: dict[str, str | None], extrapolate: bool
-) -> list[str]:
+    source: Spectrum | Track, spectral: bool, given: dict[str, str | None], extrapolate: bool,
+    travel: bool,
+) -> list[str]:  # fmt: skip
     """Remarks on options that change nothing."""
     from railride.spectra import Spectrum
 
@@ -151,10 +167,56 @@ def _idle(
     why = "without a run" if spectral else "on a measured track"
     idle = [o for o, text in given.items() if text is not None and (spectral or not made)]
     idle = [o for o in idle if spectral or o != "--length"]
+    idle = [o for o in idle if not travel or o != "--length"]
     remarks = [f"{option} changes nothing {why}" for option in idle]
     if extrapolate and not (isinstance(source, Spectrum) and source.band):
         remarks.append(f"--extrapolate changes nothing: {source.name} has no spectrum with a band")
     return remarks
+
+
+def _travel(
+    model: VehicleModel, source: Spectrum | Track, extrapolate: bool, speeds: list[float],
+    length: float | None,
+) -> list[dict[str, Any]]:  # fmt: skip
+    """R.m.s. and expected peak of every deflection and wheel load at every speed."""
+    from railride.rides import exact_spectrum
+    from railride.stochastic import extremes
+
+    spectrum, _ = exact_spectrum(_extrapolated(source) if extrapolate else source)
+    if spectrum is None:
+        return []
+    distance = 1000.0 if length is None else length
+    return [
+        {
+            "speed_kmh": _kmh(speed),
+            "output": one.name,
+            "unit": one.unit,
+            "rms": one.rms,
+            "expected_peak": one.peak,
+            "zero_upcrossing_hz": one.crossings,
+            "low_pass_hz": one.low_pass,
+            "distance_m": distance,
+        }
+        for speed in speeds
+        for one in extremes(model, speed, spectrum, distance=distance)
+    ]
+
+
+def _travel_table(felt: list[dict[str, Any]]) -> str:
+    """Suspension travel in mm, wheel loads in kN."""
+    larger = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}
+    rows = []
+    for one in felt:
+        unit, times = larger.get(one["unit"], (one["unit"], 1.0))
+        peak = one["expected_peak"]
+        rows.append((one["speed_kmh"], one["output"], unit, times * one["rms"],
+                     None if peak is None else times * peak, one["zero_upcrossing_hz"],
+                     one["low_pass_hz"]))  # fmt: skip
+    columns = [("speed\n[km/h]", ".6g"), ("output", ""), ("unit", ""), ("r.m.s.", ".3f"),
+               ("expected peak\nto one side", ".3f"), ("zero up-\ncrossings [1/s]", ".2f"),
+               ("low-pass\n[Hz]", ".4g")]  # fmt: skip
+    title = f"Suspension travel and wheel load over {felt[0]['distance_m']:g} m, exact"
+    return output.table_text(title, columns, rows)
 
 
 def _extrapolated(source: Spectrum | Track) -> Spectrum | Track:

@@ -9,11 +9,19 @@ from railride.plots.bode import plot_bode
 from railride.plots.canvas import save
 from railride.plots.modes import plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
+from railride.plots.stochastic import (
+    plot_comfort_along,
+    plot_comfort_map,
+    plot_comfort_over_speed,
+)
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
 
 __all__ = [
     "plot_acceleration",
     "plot_bode",
+    "plot_comfort_along",
+    "plot_comfort_map",
+    "plot_comfort_over_speed",
     "plot_modes",
     "plot_ride",
     "plot_track",

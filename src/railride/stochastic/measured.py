@@ -43,10 +43,15 @@ class MeasuredSpectrum(Spectrum):
     effective_length: float = 0.0
 
     @property
+    def wavelengths(self) -> tuple[float, float]:
+        """Shortest and longest wavelength that it holds, m."""
+        return self.band or (0.0, np.inf)
+
+    @property
     def remark(self) -> str:
         """What it was estimated from."""
         few = ": a few segments only, indicative" if self.segments < FEW else ""
-        shortest, longest = self.band or (0.0, 0.0)
+        shortest, longest = self.wavelengths
         return (
             f"{self.name}: exact values estimated from a Welch spectrum of {self.segments} "
             f"segments of {self.segment:.6g} m, wavelengths of {shortest:.3g} to {longest:.4g} m; "

@@ -5,7 +5,9 @@ included), and Gauss's rule converges geometrically on each. How fast, the Legen
 c_k of the integrand on a panel tell from the same points: where they decay as ρ^-k, the rule of n
 points, exact up to the order 2n - 1, is wrong by the order of
 
-.. math:: (b - a)\, |c_{2n}| \approx (b - a)\, |c_{n-1}|\, \rho^{-(n+1)} .
+.. math:: (b - a)\, |c_{2n}| \approx (b - a)\, |c_{n-1}|\, \rho^{-(n+1)},
+
+ρ from the last few coefficients, or from the last and the largest: either may be misled by a zero.
 
 Source: L.N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, Theorem 19.3
 (Gauss's rule beside a pole) and Chapter 8 (decay of the coefficients).
@@ -81,9 +83,11 @@ def gauss_errors(values: Array, length: ArrayLike) -> Array:
     _, _, last = _rule(values.shape[-1])
     c = np.abs(values @ last)
     before, tail = c[..., :_TAIL].max(axis=-1), c[..., _TAIL:].max(axis=-1)
-    decay = np.minimum(tail / np.maximum(before, np.finfo(float).tiny), 1.0)
+    largest, tiny = values.max(axis=-1), np.finfo(float).tiny
     times = (values.shape[-1] + 1) / _TAIL
-    return np.asarray(_CAUTION * np.asarray(length) * tail * decay**times)
+    lately = np.minimum(tail / np.maximum(before, tiny), 1.0) ** times
+    overall = np.minimum(tail / np.maximum(largest, tiny), 1.0)
+    return np.asarray(_CAUTION * np.asarray(length) * tail * np.minimum(lately, overall))
 
 
 @lru_cache(maxsize=16)
