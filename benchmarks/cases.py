@@ -40,6 +40,30 @@ def ride(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
+def a_wrms(step: Callable[[], None]) -> dict[str, Any]:
+    """The exact weighted r.m.s. of one vehicle at one speed, matrices in hand, N = 4."""
+    found = worker("a_wrms")
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "a_wrms",
+        own,
+        peer,
+        rounds=len(found["peer"]),
+        railride="railride.stochastic.weighted_rms, matrices in hand, wall time",
+        peer="control.forced_response of vehicle and weighting in series, 1 km at 1 kHz and "
+        "250 m of run-in, wall time",
+        a_wrms=found["a_wrms"],
+        peer_a_wrms=found["peer_a_wrms"],
+        samples=found["samples"],
+        targets=[
+            at_most("time, ms", 1e3 * own, 2),
+            at_least("times faster", peer / own, 100),
+            at_most("relative error of the integral, stated", found["error"], 1e-6),
+        ],
+    )
+
+
 def derive_linearise(step: Callable[[], None]) -> dict[str, Any]:
     """Energies to linear matrices at N = 8, each run in a fresh process, imports not counted.
 
@@ -140,6 +164,7 @@ DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
 
 CASES: dict[str, tuple[Case, int]] = {
     "ride": (ride, 1),
+    "a_wrms": (a_wrms, 1),
     "derive-linearise": (derive_linearise, DERIVE_ROUNDS),
     "derive-process": (derive_process, PROCESS_ROUNDS),
     "derive-growth": (derive_growth, GROWTH_ROUNDS),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import control
 import numpy as np
+import pandas as pd
 import pytest
 import scipy.linalg
 import scipy.signal
@@ -16,6 +17,7 @@ from railride.active import (
     Loop,
     actuator_dynamics,
     closed_response,
+    loop_spectra,
     lqg,
     rate_loop,
     rate_loops,
@@ -24,15 +26,17 @@ from railride.active import (
     suspension_signals,
 )
 from railride.active.loop import respond
-from railride.active.lqg import ERRI_POLES, _design, _noise_intensity
+from railride.active.lqg import ERRI_POLES, _design, _noise_intensity, _weighting_system
 from railride.active.semiactive import _at_rest, _march, _passive, _Switched, _switched
 from railride.errors import InputError
 from railride.frequency import track_response
+from railride.plots.active import plot_loop_spectra, plot_loops
 from railride.rides import ride
+from railride.running_gear import primary_deflection
 from railride.spectra import spectrum, temporal
 from railride.statespace import state_space
 from railride.stochastic import stochastic_ride
-from railride.vehicle import derive_vehicle
+from railride.vehicle import Output, derive_vehicle
 from railride.weightings import weighting
 
 V = 200 / 3.6
@@ -158,6 +162,30 @@ def test_white_noise_mean_square_is_the_lyapunov_equations():
     np.testing.assert_allclose(integral, np.diagonal(C @ X @ C.T), rtol=1e-3)
 
 
+def test_signals_that_feel_the_tracks_rate_directly_are_rated_too():
+    """Forces from the primary suspensions' rates, against a plain sum over the response."""
+    model = paper_coach(1)
+    measured = tuple(
+        Output(f"rate_{j}", primary_deflection(j).dot, "m/s", r"\dot p") for j in (1, 3)
+    )
+    law = control.ss([], [], [], -3e3 * np.eye(2), inputs=["rate_1", "rate_3"],
+                     outputs=["f_1", "f_2"])  # fmt: skip
+    loop = Loop("0.5 of it", model, law, measured)
+    f = np.linspace(0.05, 80.0, 160_001)
+    H = closed_response(loop.closed(["secondary_1_deflection"]), model, V, f)[1:]
+    expected = np.sqrt(np.trapezoid(np.abs(H) ** 2 * temporal(LOW, V)(f), f))
+    np.testing.assert_allclose(rate_loop(loop, V, LOW).force, expected, rtol=1e-6)
+
+
+def test_a_force_that_is_felt_at_once_is_refused():
+    model = paper_coach(1)
+    measured = tuple(suspension_signals(model)[f"body_{b}_acceleration"] for b in (1, 2))
+    law = control.ss([], [], [], -1e3 * np.eye(2), inputs=[o.name for o in measured],
+                     outputs=["f_1", "f_2"])  # fmt: skip
+    with pytest.raises(InputError, match="feels its own force at once"):
+        Loop("mine", model, law, measured)
+
+
 def test_wider_actuators_tend_to_the_ideal_one():
     model = paper_coach(4, bending_damping=0.01)
     ideal = rate_loop(skyhook(model, 100e3), V, LOW).a_wrms[0]
@@ -246,6 +274,9 @@ def test_controllers_of_other_signals_are_refused():
     law = control.ss([], [], [], np.zeros((2, 2)), inputs=["a", "b"], outputs=["f_1", "f_3"])
     with pytest.raises(InputError, match=r"controller's inputs: found a, b.*\n.*outputs: found"):
         Loop("mine", model, law)
+    finer = skyhook(paper_coach(2), 1.0)
+    with pytest.raises(InputError, match=r"body_1_velocity: found this signal of another model"):
+        Loop("mine", paper_coach(4), finer.controller, finer.measured)
     law = control.ss(np.eye(2) / 2, np.eye(2), np.eye(2), np.eye(2), 0.01,
                      inputs=["body_1_velocity", "body_2_velocity"],
                      outputs=["f_1", "f_2"])  # fmt: skip
@@ -288,6 +319,46 @@ def test_signals_are_of_the_structure_over_the_bogie():
     np.testing.assert_allclose(rate, body - bogie, atol=1e-12 * abs(body).max())
     np.testing.assert_allclose(rate, s * deflection, atol=1e-10 * abs(rate).max())
     np.testing.assert_array_equal(damper, rate)
+
+
+def test_spectra_add_up_to_the_comfort_values():
+    model = paper_coach(2, bending_damping=0.02)
+    designs = {"sky": skyhook(model, 1e5), "slow": skyhook(model, 1e5, bandwidth=8.0)}
+    spectra = loop_spectra(designs, V, LOW, np.linspace(0.05, 80, 80_000), at=3.0)
+    assert spectra.columns.tolist() == ["passive", "sky", "slow"]
+    exact = rate_loops(designs, V, LOW, at=(3.0,))["a_wrms at 3 m [m/s^2]"]
+    found = np.sqrt(np.trapezoid(spectra.to_numpy(), spectra.index, axis=0))
+    np.testing.assert_allclose(found, exact, rtol=1e-5)
+
+
+def test_designs_of_one_name_are_refused():
+    model = paper_coach(1)
+    with pytest.raises(InputError, match="names skyhook, skyhook; expected each once"):
+        rate_loops([skyhook(model, 1e4), skyhook(model, 2e4)], V, LOW)
+    with pytest.raises(InputError, match="none 'passive'"):
+        rate_loops({"passive": skyhook(model, 1e4)}, V, LOW)
+
+
+def test_pictures_show_every_design():
+    model = paper_coach(2)
+    designs = {"ideal": skyhook(model, 1e5), "real": skyhook(model, 1e5, bandwidth=10.0)}
+    f = np.geomspace(0.5, 30, 200)
+    spectra, table = loop_spectra(designs, V, LOW, f), rate_loops(designs, V, LOW)
+    ax = plot_loop_spectra(spectra)
+    for line, name in zip(ax.get_lines(), ("passive", "ideal", "real"), strict=True):
+        assert line.get_label() == name
+        np.testing.assert_allclose(line.get_ydata() ** 2, spectra[name], rtol=1e-12)
+    assert (ax.get_xlabel(), ax.get_xscale(), ax.get_yscale()) == ("frequency [Hz]", "log", "log")
+    assert "m/s²/√Hz" in ax.get_ylabel()
+    points = plot_loops(table)
+    assert len(points.get_lines()) == 3
+    travel = table.loc["real", ["travel r.m.s. bogie 1 [m]", "travel r.m.s. bogie 2 [m]"]].max()
+    np.testing.assert_allclose(points.get_lines()[2].get_xdata(), 1e3 * travel)
+    assert points.get_ylabel() == "a_wrms at 0 m [m/s²]"
+    with pytest.raises(InputError, match="table: found the columns none"):
+        plot_loops(pd.DataFrame())
+    with pytest.raises(InputError, match="spectra: found none"):
+        plot_loop_spectra(pd.DataFrame())
 
 
 # LQG
@@ -346,6 +417,14 @@ def test_lqg_noise_has_the_spectrum_of_erri():
     s = 2j * np.pi * f
     density = 2 * _noise_intensity(LOW, V) / np.abs((s + slow) * (s + fast)) ** 2
     np.testing.assert_allclose(density, temporal(LOW, V)(f), rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["Wk", "Wb", "Wk_paper"])
+def test_lqg_weighs_as_the_weighting_does(name):
+    weight, f = weighting(name), np.geomspace(0.1, 100, 40)
+    system = _weighting_system(weight, "a", "a_w")
+    found = respond(system, 2j * np.pi * f, np.ones((1, f.size), dtype=complex))[0]
+    np.testing.assert_allclose(found, weight.response(f), rtol=1e-9)
 
 
 def test_lqg_with_actuators_in_the_design_bears_them_better():

@@ -285,12 +285,14 @@ def test_a_track_that_is_shorter_than_the_rated_length(refused, tmp_path):
     helps(message, "line.csv", "200 m", "201 m", "--length")
 
 
-def test_a_measured_track_has_no_spectrum(refused, tmp_path):
-    (tmp_path / "line.csv").write_text(LINE)
+def test_a_measured_track_too_short_for_a_spectrum(refused, tmp_path):
+    rows = [f"{x},{0.001 * (x % 3)}" for x in range(10)]
+    (tmp_path / "line.csv").write_text("distance_m,level_m\n" + "\n".join(rows) + "\n")
     helps(
-        refused("ride", "--track", "line.csv", "--length", "50", "--spectral"),
+        refused("ride", "--track", "line.csv", "--length", "5", "--spectral"),
         "line.csv",
         "spectrum",
+        "samples",
     )
 
 

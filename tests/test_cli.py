@@ -257,13 +257,34 @@ def test_options_without_effect_are_remarked(result):
     assert any(text.startswith("--extrapolate changes nothing") for text in remarks)
 
 
-def test_a_measured_track_has_no_exact_value(result, tmp_path):
+def test_a_measured_track_has_the_exact_value_of_its_own_spectrum(result, tmp_path):
     file = tmp_path / "line.csv"
-    result("track", "--length", "300", "--step", "0.25", "--write", file)
-    (case,) = result("ride", "--track", file, "--length", "100", "--speed", "100")["cases"]
-    assert case["a_wrms_exact"] is None
-    assert case["a_wrms"] > 0
+    result("track", "--length", "1000", "--step", "0.25", "--write", file)
+    given = ("ride", "--track", file, "--length", "300", "--speed", "145", "--segments", "1")
+    ridden, exact = result(*given), result(*given, "--spectral")
+    (case,) = exact["cases"]
+    assert case["a_wrms"] == case["a_wrms_exact"] == ridden["cases"][0]["a_wrms_exact"]
+    assert 0 < case["standard_error"] < case["a_wrms"]
+    assert case["vdv"] is None
+    for document in (ridden, exact):
+        assert any("Welch" in text for text in document["remarks"])
 
+
+def test_travel_adds_suspension_travel_and_wheel_loads(result, run):
+    given = ("ride", "--spectral", "--vehicle", "ice3", "--speed", "200", "--travel")
+    outputs = result(*given, "--length", "500")["outputs"]
+    loads = [one for one in outputs if one["unit"] == "N"]
+    assert len(loads) == 4
+    assert all(one["low_pass_hz"] == 20 for one in loads)
+    travel = [one for one in outputs if one["output"] == "secondary_1_deflection"]
+    assert [one["distance_m"] for one in travel] == [500]
+    assert travel[0]["low_pass_hz"] is None
+    assert 2.5 < travel[0]["expected_peak"] / travel[0]["rms"] < 4
+    assert "outputs" not in result(*given[:-1])
+    table = run(*given)[1]
+    assert "wheel_load_1" in table
+    assert "kN" in table
+    assert max(map(len, table.splitlines())) <= 120
 
 def test_rides_are_drawn_into_a_new_folder(result, tmp_path):
     result(

@@ -17,7 +17,7 @@ from railride.parameters import load_vehicle
 from railride.rides import load_track, ride
 from railride.spectra import spectrum
 from railride.statespace import system_arrays
-from railride.stochastic import stochastic_ride
+from railride.stochastic import measured_spectrum, stochastic_ride
 from railride.timerun import run_in_time, time_run
 from railride.track import Track, synthesise
 from railride.vehicle import derive_vehicle
@@ -147,8 +147,9 @@ def test_a_track_shorter_than_the_rated_length_is_refused():
 def test_a_measured_track_is_rated_over_its_last_metres_with_its_run_in():
     found = ride(paper_coach(1), bump(300.0), [V], length=400.0)
     (case,) = found.cases
-    assert case.a_wrms_exact is None
-    assert case.standard_error is None
+    exact = stochastic_ride(paper_coach(1), V, measured_spectrum(bump(300.0)))
+    assert case.a_wrms_exact == pytest.approx(float(exact.a_wrms[0]), rel=1e-12)
+    assert any("Welch" in remark and "indicative" in remark for remark in found.remarks)
     assert case.record.time[0] < -1.0
     assert case.record.time[-1] == pytest.approx(400.0 / V, abs=1e-3)
     assert not any("taper" in remark for remark in found.remarks)
@@ -167,9 +168,27 @@ def test_a_measured_track_tells_the_band_it_holds():
     assert any("1.6" in remark and "13.4" in remark for remark in remarks)
 
 
-def test_spectral_with_a_measured_track_is_refused():
-    with pytest.raises(InputError, match="spectrum"):
-        ride(paper_coach(1), bump(300.0), [V], spectral=True)
+def test_spectral_with_a_measured_track_uses_its_spectrum():
+    track = synthesise(LOW, 3000.0, 0.25, 4)
+    model = paper_coach(2)
+    found = ride(model, replace(track, name="line"), [V], length=500.0, spectral=True)
+    (case,) = found.cases
+    exact = stochastic_ride(model, V, measured_spectrum(track))
+    assert case.a_wrms == case.a_wrms_exact == pytest.approx(float(exact.a_wrms[0]), rel=1e-12)
+    assert case.standard_error > 0
+    assert case.record is None
+    assert any("line: exact values estimated from a Welch spectrum" in r for r in found.remarks)
+    assert any("55.6 Hz; nothing outside" in remark for remark in found.remarks)  # 1 m to half a segment
+
+
+def test_a_track_without_a_spectrum_has_no_exact_value():
+    level = np.zeros(30)
+    with pytest.raises(InputError, match="no spectrum"):
+        ride(paper_coach(1), Track(0.0, 1.0, level[:12], "stub"), [V], spectral=True)
+    coarse = Track(0.0, 5.0, np.sin(np.arange(30.0)), "coarse")
+    found = ride(paper_coach(1), coarse, [0.5], length=100.0)
+    assert found.cases[0].a_wrms_exact is None
+    assert any("no exact value" in remark for remark in found.remarks)
 
 
 def test_one_seed_is_one_track_for_all_speeds_and_bodies():

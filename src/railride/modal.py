@@ -11,18 +11,19 @@ Source: D.E. Newland, Mechanical Vibration Analysis and Computation, 1989, Chapt
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from railride.errors import InputError
-from railride.firstorder import first_order
-from railride.naming import DAMPER, free_motions, motions, names, participation, settled
+from railride.firstorder import FirstOrder, first_order
+from railride.naming import DAMPER, Motions, free_motions, motions, names, participation, settled
 from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
-__all__ = ["DAMPER", "UNSTABLE", "Mode", "eigen", "free_motions", "modes", "refuse_unstable",
-           "undamped_frequencies"]  # fmt: skip
+__all__ = ["DAMPER", "UNSTABLE", "Mode", "Solution", "eigen", "free_motions", "modes",
+           "refuse_unstable", "solve", "undamped_frequencies"]  # fmt: skip
 
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
 FOREMOST = 1 - 1e-6  # of the largest entry: what is as large is equal to it
@@ -35,7 +36,7 @@ class Mode:
     frequency_hz: |λ|/2π. damping_ratio: -Re λ/|λ|. eigenvalue: λ with Im λ ≥ 0, rad/s.
     shape: φ in the model's coordinates, complex, largest entry 1. label: what moves most.
     share: the part of the mode's kinetic energy in motions of this name, 0 to 1; of a real
-    eigenvalue, which has hardly any, their participation.
+    eigenvalue, which has hardly any, weighed with their participation (:mod:`railride.naming`).
     phase: "in phase" or "anti-phase" where neighbouring bogies move with or against each other in a
     mode of theirs, else "".
     """
@@ -65,30 +66,58 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
     >>> [mode.label for mode in modes(derive_vehicle(load_vehicle("cati2024"), segments=2))][:3]
     ['heave', 'pitch', 'bogie heave']
     """
+    return solve(model, **changes).modes
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The eigenvalues of a stable vehicle and its modes.
+
+    roots : (s,), all, by |λ|. vectors : (s, s) as columns.
+    kept : which of them the modes are, in their order.
+    """
+
+    A: Matrices
+    x: FirstOrder
+    free: Motions
+    roots: NDArray[np.complex128]
+    vectors: NDArray[np.complex128]
+
+    @property
+    def kept(self) -> NDArray[np.int_]:
+        """The places of the modes among the roots: Im λ ≥ 0."""
+        return np.flatnonzero(self.roots.imag >= 0)
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """Every mode, named."""
+        roots, shapes = self.roots[self.kept], self.x.q_x @ self.vectors[:, self.kept]
+        parts = participation(self.free, self.x, self.vectors)[:, self.kept]
+        strokes = int((~self.x.inertial).sum())
+        named = names(self.free, self.A.M, shapes, roots.imag > 0, parts, strokes)
+        return tuple(
+            Mode(
+                frequency_hz=float(abs(root) / (2 * np.pi)),
+                damping_ratio=float(-root.real / abs(root)) if root else 0.0,
+                label=name.label,
+                share=name.share,
+                eigenvalue=complex(root),
+                shape=_largest_one(shape),
+                phase=name.phase,
+            )
+            for root, shape, name in zip(roots, shapes.T, named, strict=True)
+        )
+
+
+def solve(model: VehicleModel, **changes: ArrayLike) -> Solution:
+    """The eigenvalue problem of one vehicle, solved; raises as :func:`modes` does."""
     A = model.matrices(**changes)
-    x = first_order(A)
+    x, free = first_order(A), motions(model, A)
     roots, vectors = eigen(A)
     refuse_unstable(roots)
-    free = motions(model, A)
     roots, vectors = settled(free, A, x, roots, vectors)
-    parts = participation(free, x, vectors)
-    kept = np.flatnonzero(roots.imag >= 0)
-    kept = kept[np.argsort(np.abs(roots[kept]), kind="stable")]
-    roots, shapes = roots[kept], x.q_x @ vectors[:, kept]
-    strokes = int((~x.inertial).sum())
-    named = names(free, A.M, shapes, roots.imag > 0, parts[:, kept], strokes)
-    return tuple(
-        Mode(
-            frequency_hz=float(abs(root) / (2 * np.pi)),
-            damping_ratio=float(-root.real / abs(root)) if root else 0.0,
-            label=name.label,
-            share=name.share,
-            eigenvalue=complex(root),
-            shape=_largest_one(shape),
-            phase=name.phase,
-        )
-        for root, shape, name in zip(roots, shapes.T, named, strict=True)
-    )
+    order = np.argsort(np.abs(roots), kind="stable")
+    return Solution(A, x, free, roots[order], vectors[:, order])
 
 
 def _largest_one(shape: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -6,15 +6,16 @@ energy, of which the shares
 
 .. math:: |b_k^T M \varphi|^2 / (b_k^T M b_k \cdot \varphi^* M \varphi)
 
-add up to one; no motion names two modes. A real eigenvalue hardly moves masses: its energy is in
-the springs, and the body may ride along with creeping bogies. It is named after its participation
+add up to one; no motion names two modes. A real eigenvalue hardly moves masses, its energy is in
+the springs: where a locked bogie creeps, the body rides along and would name the mode. It is named
+after the geometric mean of the share and of the motion's participation,
 
 .. math:: p_{kj} = w_j^T P_k v_j , \qquad \sum_k p_{kj} = 1 , \quad \sum_j p_{kj} = 2 ,
 
 the part of the eigenvector v_j that lies in height and rate of motion k, seen by the left
-eigenvector w_j. Without damping it is the share of kinetic energy. A motion that names no
-oscillating mode names a real one at least. Strokes of dampers on elastic mounts are one state each,
-and as many real eigenvalues, those that they participate in most, are their relaxation.
+eigenvector w_j: how much of the motion, let go, decays so. A motion that names no oscillating mode
+names a real one at least. Strokes of dampers on elastic mounts are one state each, and as many real
+eigenvalues, those that they participate in most, are their relaxation.
 
 Source: R.J. Allemang, Sound and Vibration 37 (2003), No. 8, 14-21: modal assurance, here with M as
 weight. I.J. Pérez-Arriaga, G.C. Verghese, F.C. Schweppe, IEEE Trans. PAS 101 (1982), 3117-3125:
@@ -198,7 +199,9 @@ def names(
     amplitudes = free.amplitudes(M, shapes)
     kinetic = np.abs(amplitudes) ** 2
     labels, shares = free.by_label(kinetic / kinetic.sum(axis=0))
-    _, creeping = free.by_label(parts[:-1])
+    _, part = free.by_label(parts[:-1])
+    creeping = np.sqrt(shares * part)
+    creeping = creeping / creeping.sum(axis=0)
     left = np.array([free.labels.count(label) for label in labels])
     pairs, real = np.flatnonzero(oscillating), np.flatnonzero(~oscillating)
     found: dict[int, tuple[str, float]] = {}

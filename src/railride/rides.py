@@ -20,7 +20,13 @@ from railride.errors import Faults, InputError
 from railride.numeric import Array
 from railride.scales import levels, paper_level
 from railride.spectra import Spectrum, check_speed, coverage_remark, spectrum
-from railride.stochastic import BAND_HZ, StochasticRide, stochastic_ride
+from railride.stochastic import (
+    BAND_HZ,
+    MeasuredSpectrum,
+    StochasticRide,
+    measured_spectrum,
+    stochastic_ride,
+)
 from railride.timerun import LONGEST_RUN_IN, Run, time_run
 from railride.track import Track, recommended_step, resolved_band_hz, synthesise
 from railride.trackfile import read_track
@@ -172,12 +178,13 @@ def ride(
     source, weighted_by = load_track(track), weighting(weight)
     road = None if spectral else _road(source, speeds, length, seed)
     cases: list[Case] = []
-    remarks = [*model.vehicle.remarks, *model.remarks, *_section(source, length)]
+    of, said = exact_spectrum(source, needed=spectral)
+    section = [] if spectral else _section(source, length)
+    remarks = [*model.vehicle.remarks, *model.remarks, *section, *said]
     for number, speed in enumerate(speeds, start=1):
-        exact = None
-        if isinstance(source, Spectrum):
-            exact = stochastic_ride(model, speed, source, at, floor=floor, weight=weighted_by)
-        remarks += _coverage(source, speed)
+        exact, said = _exact(model, speed, of, at, floor, weighted_by, needed=spectral)
+        remarks += said
+        remarks += _coverage(source if road is not None or of is None else of, speed)
         if speed > FASTEST:
             remarks.append(f"{_kmh(speed)} is faster than trains run: is the speed in m/s?")
         if road is None:
@@ -256,7 +263,7 @@ def _exact(
             raise
         return None, [f"no exact value: {fault}"]
     remarks = list(found.remarks)
-    if isinstance(of, MeasuredSpectrum):
+    if isinstance(of, MeasuredSpectrum) and not needed:
         shortest, longest = of.wavelengths
         low, high = speed / longest, speed / shortest
         remarks.append(f"{_kmh(speed)}: the exact value of {of.name} holds {max(low, 0.05):.2g} to "

@@ -8,7 +8,13 @@ comfort value, the suspension travel and the actuators' forces.
 
 from railride.active.loop import Loop
 from railride.active.lqg import lqg
-from railride.active.rating import LoopRating, closed_response, rate_loop, rate_loops
+from railride.active.rating import (
+    LoopRating,
+    closed_response,
+    loop_spectra,
+    rate_loop,
+    rate_loops,
+)
 from railride.active.semiactive import SemiActiveRide, semi_active_ride
 from railride.active.signals import suspension_signals
 from railride.active.skyhook import actuator_dynamics, skyhook
@@ -19,6 +25,7 @@ __all__ = [
     "SemiActiveRide",
     "actuator_dynamics",
     "closed_response",
+    "loop_spectra",
     "lqg",
     "rate_loop",
     "rate_loops",

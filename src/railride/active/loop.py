@@ -46,7 +46,8 @@ class Loop:
 
     Raises
     ------
-    InputError : signals that the vehicle does not have; a loop in which a motion grows.
+    InputError : signals that the vehicle does not have; a controller in discrete time, or that
+        feels its own force at once; a loop in which a motion grows.
     """
 
     name: str
@@ -127,7 +128,7 @@ class Loop:
                 f"loop {self.name}: found a vehicle of {len(model.vehicle.bogies)} bogies; "
                 f"expected {len(self.model.vehicle.bogies)}, as the controller has"
             )
-        signals = {**model.outputs, **suspension_signals(model)}
+        signals = self._known(model)
         measured = tuple(signals.get(output.name, output) for output in self.measured)
         return replace(self, model=model, measured=measured)
 
@@ -159,12 +160,23 @@ class Loop:
             n = len(track)
             return control.ss(plant.A, plant.B[:, :n], plant.C, plant.D[:, :n], inputs=track,
                               states=plant.state_labels, outputs=plant.output_labels,
-                              name=self.name)  # fmt: skip
+                              name="loop")  # fmt: skip
         plant = plant.copy(name="vehicle", use_prefix_suffix=False)
         controller = self.controller.copy(name="controller", use_prefix_suffix=False)
         forces = plant.input_labels[len(track) :]
-        return control.interconnect([plant, controller], inputs=track, check_unused=False,
-                                    outputs=[*wanted, *forces], name=self.name)  # fmt: skip
+        try:
+            return control.interconnect([plant, controller], inputs=track, check_unused=False,
+                                        outputs=[*wanted, *forces], name="loop")  # fmt: skip
+        except RuntimeError:
+            raise InputError(
+                f"loop {self.name}: found a controller that feels its own force at once; expected "
+                "a lag between an acceleration and the force (give it an actuator's bandwidth)"
+            ) from None
+
+    @staticmethod
+    def _known(model: VehicleModel) -> dict[str, Output]:
+        """Outputs of a model by name."""
+        return {**model.outputs, **suspension_signals(model)}
 
     def _check_signals(self) -> None:
         if self.controller is None:
@@ -178,6 +190,11 @@ class Loop:
             if sorted(found) != sorted(expected):
                 faults.add(f"controller's {what}", ", ".join(found), ", ".join(expected),
                            "name them as the vehicle's signals")  # fmt: skip
+        known = self._known(self.model)
+        for output in self.measured:
+            if output.expression != known.get(output.name, output).expression:
+                faults.add(output.name, "this signal of another model",
+                           "that of the loop's own", "use loop.on(model)")  # fmt: skip
         if self.controller.dt not in (None, 0):
             faults.add("controller", f"a sampled one, dt = {self.controller.dt}",
                        "one in continuous time", "control.d2c")  # fmt: skip

@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike
 
 from railride.active.loop import Complex, Loop, respond, triangular_form
 from railride.errors import InputError
-from railride.frequency import check_frequency, wheelset_delays
+from railride.frequency import check_ascending, check_frequency, wheelset_delays
 from railride.numeric import Array
-from railride.spectra import Spectrum, check_speed
+from railride.spectra import Spectrum, check_speed, temporal
 from railride.stochastic.process import (
     BAND_HZ,
     PLAIN,
@@ -189,14 +189,7 @@ def rate_loops(
     """
     import pandas as pd
 
-    named = dict(loops) if isinstance(loops, Mapping) else {loop.name: loop for loop in loops}
-    if not named:
-        raise InputError("loops: found none; expected at least one")
-    model = next(iter(named.values())).model
-    if any(loop.model is not model for loop in named.values()):
-        raise InputError("loops: found designs for different vehicles; expected one vehicle, which "
-                         "the passive row then shows (rate each vehicle by itself)")  # fmt: skip
-    named = {PASSIVE: Loop(PASSIVE, model)} | named
+    named = _beside_passive(loops)
     rows = []
     for loop in named.values():
         found = rate_loop(loop, speed, spectrum, at, floor=floor, weight=weight)
@@ -210,3 +203,66 @@ def rate_loops(
                            "least damping ratio": found.least_damping_ratio,
                            "modulus margin": found.modulus_margin})  # fmt: skip
     return pd.DataFrame(rows, index=pd.Index(named, name="design"))
+
+
+def loop_spectra(
+    loops: Mapping[str, Loop] | Sequence[Loop],
+    speed: float,
+    spectrum: Spectrum,
+    frequency: ArrayLike | None = None,
+    at: float = 0.0,
+    *,
+    floor: str = "smooth",
+    weight: Weighting | None = None,
+) -> pd.DataFrame:
+    """Where designs help: spectra |W H|² S_w of the floor's weighted acceleration, (m/s²)²/Hz.
+
+    Parameters
+    ----------
+    loops : as for :func:`rate_loops`; the passive vehicle stands first.
+    speed : V in m/s, > 0. spectrum : of the track.
+    frequency : in Hz, ascending, (F,); default 2,000 from 0.2 to 40 Hz.
+    at : point of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
+    weight : default W_k.
+
+    Returns
+    -------
+    frame : one column per design, the index "frequency [Hz]".
+
+    Raises
+    ------
+    InputError : as :func:`rate_loops`; frequencies that are none.
+    """
+    import pandas as pd
+
+    f = check_ascending(np.geomspace(0.2, 40.0, 2000) if frequency is None else frequency)
+    weight = weighting("Wk") if weight is None else weight
+    gain = np.abs(weight.response(f)) ** 2 * temporal(spectrum, speed)(f)
+    columns = {}
+    for name, loop in _beside_passive(loops).items():
+        system = loop.closed([loop.model.floor(at, floor)])
+        H = closed_response(system, loop.model, speed, f)[0]
+        columns[name] = np.abs(H) ** 2 * gain
+    return pd.DataFrame(columns, index=pd.Index(f, name="frequency [Hz]"))
+
+
+def _beside_passive(loops: Mapping[str, Loop] | Sequence[Loop]) -> dict[str, Loop]:
+    """The passive vehicle and the designs by name.
+
+    Raises
+    ------
+    InputError : no loop, loops of different vehicles, two of one name.
+    """
+    pairs = [*(loops.items() if isinstance(loops, Mapping) else ((x.name, x) for x in loops))]
+    if not pairs:
+        raise InputError("loops: found none; expected at least one")
+    model = pairs[0][1].model
+    if any(loop.model is not model for _, loop in pairs):
+        raise InputError("loops: found designs for different vehicles; expected one vehicle, which "
+                         "the passive row then shows (rate each vehicle by itself)")  # fmt: skip
+    named = {PASSIVE: Loop(PASSIVE, model), **dict(pairs)}
+    if len(named) <= len(pairs):
+        names = ", ".join(name for name, _ in pairs)
+        raise InputError(f"loops: found the names {names}; expected each once, and none "
+                         f"{PASSIVE!r}, which is the vehicle's own (give name=…)")  # fmt: skip
+    return named

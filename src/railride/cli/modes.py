@@ -1,23 +1,66 @@
-"""``railride modes``: natural frequencies, damping ratios and what moves."""
+"""``railride modes``: natural frequencies, damping ratios and what moves, over a parameter too."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from railride.cli import options, output
 from railride.cli.options import FORMATS, Arguments, build_model
 from railride.cli.progress import working
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from railride.modal import Mode
     from railride.vehicle import VehicleModel
 
 ABREAST = 7  # mode shapes beside one another in a table
+BRANCHES_ABREAST = 5
+LOCUS, PICTURES = "Over a parameter", "Pictures"
+MOST_POINTS = 5000
+
+VaryOption = Annotated[
+    str | None, typer.Option("--vary", metavar="NAME", rich_help_panel=LOCUS,
+                             help="Follow the modes over this parameter, such as c_2, instead.")
+]  # fmt: skip
+FromOption = Annotated[
+    str | None, typer.Option("--from", metavar="VALUE", rich_help_panel=LOCUS,
+                             help="Its first value, in SI units or as '10 kN*s/m'.")]  # fmt: skip
+ToOption = Annotated[
+    str | None, typer.Option("--to", metavar="VALUE", rich_help_panel=LOCUS,
+                             help="Its last value.")]  # fmt: skip
+PointsOption = Annotated[
+    str | None, typer.Option("--points", metavar="N", rich_help_panel=LOCUS,
+                             help="How many values, the two included; default 60.")]  # fmt: skip
+LogOption = Annotated[
+    bool, typer.Option("--log", rich_help_panel=LOCUS,
+                       help="Space them evenly over the logarithm.")]  # fmt: skip
+PlotOption = Annotated[
+    str | None, typer.Option("--plot", metavar="FILE", rich_help_panel=PICTURES,
+                             help="Draw the mode shapes, or with --vary root locus and damping, "
+                             "into this PNG, PDF or SVG file.")]  # fmt: skip
+AnimateOption = Annotated[
+    str | None, typer.Option("--animate", metavar="FILE.gif", rich_help_panel=PICTURES,
+                             help="Write one mode in motion as a GIF.")]  # fmt: skip
+ModeOption = Annotated[
+    str | None, typer.Option("--mode", metavar="N|LABEL", rich_help_panel=PICTURES,
+                             help="Which mode: its number in the table, or its label; default 1 "
+                             "to animate, all of the lowest to draw.")]  # fmt: skip
 
 
 @output.exits_cleanly
 def modes(
+    vary: VaryOption = None,
+    first: FromOption = None,
+    last: ToOption = None,
+    points: PointsOption = None,
+    log: LogOption = False,
+    plot: PlotOption = None,
+    animate: AnimateOption = None,
+    mode: ModeOption = None,
     vehicle: options.VehicleOption = "cati2024",
     segments: options.SegmentsOption = None,
     body: options.BodyOption = None,
@@ -30,28 +73,175 @@ def modes(
     """Natural frequencies, damping ratios and labelled mode shapes.
 
     Example:  railride modes --segments 2
+
+    Example:  railride modes --vary c_2 --from "10 kN*s/m" --to "200 kN*s/m" --plot locus.png
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    output.check_output(given.faults, "--output", to)
-    given.separate({"--output": to}, {"--vehicle": vehicle})
+    for option, path in (("--output", to), ("--plot", plot), ("--animate", animate)):
+        output.check_output(given.faults, option, path)
+    _check_pictures(given, plot, animate)
+    given.separate({"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": vehicle})
+    _check_together(given, vary, {"--from": first, "--to": last, "--points": points,
+                                  "--log": log or None}, animate, plot, mode)  # fmt: skip
+    count = given.whole("--points", points or "60", 2, MOST_POINTS)
     with working("deriving"):
         model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
                             bending_damping)  # fmt: skip
-        from railride import modal
+        if vary is not None:
+            text = _locus(model, form, _values(model, vary, first, last, count, log=log), plot)
+        else:
+            text = _modes(model, form, plot, animate, mode)
+    output.write(text, to)
+    output.remark([*model.vehicle.remarks, *model.remarks])
+    for path in (plot, animate):
+        if path is not None:
+            typer.echo(f"drawn: {path}", err=True)
 
-        found = modal.modes(model)
-        undamped = modal.undamped_frequencies(model.matrices())
-    remarks = [*model.vehicle.remarks, *model.remarks]
-    text = output.result(
+
+def _check_pictures(given: Arguments, plot: str | None, animate: str | None) -> None:
+    """Note files whose names do not say that they are pictures, or animations."""
+    if plot is not None:
+        from railride.plots.canvas import picture_format
+
+        _note(given, "--plot", lambda: picture_format(plot))
+    if animate is not None:
+        from railride.plots.animation import check_animation
+
+        _note(given, "--animate", lambda: check_animation(animate))
+
+
+def _check_together(
+    given: Arguments, vary: str | None, locus: dict[str, Any], animate: str | None,
+    plot: str | None, mode: str | None,
+) -> None:  # fmt: skip
+    """Note options that lack the one they belong to, or have no business with it."""
+    if vary is None:
+        for option in (option for option, value in locus.items() if value is not None):
+            given.faults.add(option, "no --vary with it", "a parameter to vary",
+                             "such as --vary c_2")  # fmt: skip
+        if mode is not None and animate is None and plot is None:
+            given.faults.add("--mode", "neither --plot nor --animate with it", "a picture to draw",
+                             "such as --animate mode.gif")  # fmt: skip
+        return
+    for option in ("--from", "--to"):
+        if locus[option] is None:
+            given.faults.add("--vary", f"no {option} with it", "the range to vary it over",
+                             'such as --from "10 kN*s/m" --to "200 kN*s/m"')  # fmt: skip
+    for option, text in (("--animate", animate), ("--mode", mode)):
+        if text is not None:
+            given.conflict("--vary", option)
+
+
+def _values(
+    model: VehicleModel, name: str, first: str | None, last: str | None, count: int, *, log: bool
+) -> dict[str, Any]:
+    """The parameter and its values, SI: texts in its own unit."""
+    import numpy as np
+
+    from railride.loci import described
+
+    known = model.values()
+    if name not in known:
+        model.values(**{name: 1.0})  # refuses it with the list, unless it is a key of the files
+    given = Arguments()
+    unit = described(model, name)[0]
+    low, high = given.number("--from", first, unit), given.number("--to", last, unit)
+    if None not in (low, high) and low >= high:
+        given.faults.add("--from", f"{low:g} {unit}, and {high:g} {unit} for --to".replace(" ,", ","),
+                         "a value below that of --to")  # fmt: skip
+    elif low is not None and log and low <= 0:
+        given.faults.add("--log", f"{low:g} {unit} for --from", "values above 0")
+    given.check()
+    return {name: (np.geomspace if log else np.linspace)(low, high, count)}
+
+
+def _modes(
+    model: VehicleModel, form: str, plot: str | None, animate: str | None, mode: str | None
+) -> str:
+    """The modes as text; pictures are drawn."""
+    from railride import modal
+
+    found = modal.modes(model)
+    undamped = modal.undamped_frequencies(model.matrices())
+    chosen = None if mode is None else _chosen(found, mode)
+    if plot is not None:
+        from railride import plots
+
+        drawn = found if chosen is None else [chosen]
+        plots.save(plots.plot_modes(model, drawn), plot)
+    if animate is not None:
+        from railride import plots
+
+        plots.animate_mode(model, found[0] if chosen is None else chosen, animate)
+    return output.result(
         form,
         as_json(model, found, undamped),
         _flat(model, found),
         lambda: as_table(found, undamped) + "\n" + _shapes(model, found),
-        remarks,
+        [*model.vehicle.remarks, *model.remarks],
     )
-    output.write(text, to)
-    output.remark(remarks)
+
+
+def _chosen(found: Sequence[Mode], text: str) -> Mode:
+    """The mode of a number in the table, or the only one of a label, its phase added if need be."""
+    given = Arguments()
+    if text.strip().isdecimal():
+        number = given.whole("--mode", text.strip(), 1, len(found))
+        given.check()
+        return found[int(number) - 1]
+    wanted = " ".join(text.lower().replace(",", " ").split())
+    named = [(k, m) for k, m in enumerate(found, start=1)
+             if wanted in {m.label, f"{m.label} {m.phase}"}]  # fmt: skip
+    if len(named) == 1:
+        return named[0][1]
+    listed = ", ".join(
+        f"{k} ({m.label}{', ' if m.phase else ''}{m.phase}, {m.frequency_hz:.4g} Hz)"
+        for k, m in named or enumerate(found, start=1)
+    )
+    what = f"{text!r}, of which there are {len(named)}" if named else repr(text)
+    given.faults.add("--mode", what, f"one of {listed}", "give the number")
+    given.check()
+    raise AssertionError
+
+
+def _locus(model: VehicleModel, form: str, varied: dict[str, Any], plot: str | None) -> str:
+    """The locus as text; its picture is drawn."""
+    from railride.loci import mode_locus
+
+    locus = mode_locus(model, **varied)
+    if plot is not None:
+        from railride import plots
+
+        plots.save(plots.plot_loci(locus), plot)
+    rows = [] if form == "table" else locus.to_dict("records")
+    name = locus.attrs["parameter"]
+    document = {"parameter": name, "unit": locus.attrs["unit"], "locus": rows}
+    return output.result(form, document, rows, lambda: _locus_table(locus),
+                         [*model.vehicle.remarks, *model.remarks])  # fmt: skip
+
+
+def _locus_table(locus: pd.DataFrame) -> str:
+    """Frequency and damping ratio of every branch at every value, some branches abreast."""
+    name, unit = locus.attrs["parameter"], locus.attrs["unit"]
+    values = locus[name].unique().tolist()
+    branches = dict(list(locus.groupby("branch")))
+    tables = []
+    for start in range(0, len(branches), BRANCHES_ABREAST):
+        some = dict(list(branches.items())[start : start + BRANCHES_ABREAST])
+        columns = [(f"{name}\n[{unit}]" if unit else name, ".6g")]
+        cells = []
+        for number, rows in some.items():
+            labels = list(dict.fromkeys(rows["label"]))
+            columns.append((f"{number} {labels[0]}" + (" …" if labels[1:] else ""), ">"))
+            entries = zip(rows["frequency_hz"], rows["damping_ratio"], strict=True)
+            cells.append(dict(zip(rows[name], (f"{f:.4f} {z:7.4f}" for f, z in entries),
+                                  strict=True)))  # fmt: skip
+        listed = [(value, *(cell.get(value, "–") for cell in cells)) for value in values]
+        title = f"Modes over {name}: |λ|/2π [Hz] and damping ratio of each branch"
+        tables.append(output.table_text(title if not start else "Modes, continued", columns,
+                                        listed))  # fmt: skip
+    return "\n".join(tables)
 
 
 def as_json(model: VehicleModel, found: Sequence[Mode], undamped: Any) -> dict[str, Any]:
@@ -62,6 +252,8 @@ def as_json(model: VehicleModel, found: Sequence[Mode], undamped: Any) -> dict[s
             "frequency_hz": m.frequency_hz,
             "damping_ratio": m.damping_ratio,
             "label": m.label,
+            "share": m.share,
+            "phase": m.phase or None,
             "shape": {q: [x.real, x.imag] for q, x in zip(names, m.shape.tolist(), strict=True)},
         }
         for m in found
@@ -76,7 +268,7 @@ def as_table(found: Sequence[Mode], undamped: Any) -> str:
     columns = [("", "d"), ("mode", ""), ("|λ|/2π [Hz]", ".4f"), ("damping ratio", ".4g"),
                ("energy share", ".0%")]  # fmt: skip
     rows = [
-        (number, m.label, m.frequency_hz, m.damping_ratio, m.share)
+        (number, f"{m.label}, {m.phase}" if m.phase else m.label, m.frequency_hz, m.damping_ratio, m.share)
         for number, m in enumerate(found, start=1)
     ]
     listed = textwrap.fill("  ".join(f"{f:.4f}" for f in undamped), 100, initial_indent="  ",

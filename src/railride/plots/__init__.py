@@ -5,8 +5,11 @@ axes; what needs several axes returns the figure. Nothing is shown and no settin
 figures know nothing of pyplot, and matplotlib is loaded when the first one is drawn.
 """
 
+from railride.plots.active import plot_loop_spectra, plot_loops
+from railride.plots.animation import animate_mode
 from railride.plots.bode import plot_bode
 from railride.plots.canvas import save
+from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
 from railride.plots.stochastic import (
@@ -17,13 +20,19 @@ from railride.plots.stochastic import (
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
 
 __all__ = [
+    "animate_mode",
     "plot_acceleration",
     "plot_bode",
     "plot_comfort_along",
     "plot_comfort_map",
     "plot_comfort_over_speed",
+    "plot_loop_spectra",
+    "plot_loops",
+    "plot_damping",
+    "plot_loci",
     "plot_modes",
     "plot_ride",
+    "plot_root_locus",
     "plot_track",
     "plot_track_overview",
     "plot_track_spectrum",

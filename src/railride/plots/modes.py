@@ -38,24 +38,29 @@ class ModeShape:
     pitch: FloatArray
 
 
-def mode_shape(model: VehicleModel, mode: Mode) -> ModeShape:
-    """Vertical displacements Re(d/d_max): the mode at the instant when the largest is largest.
+def mode_shape(model: VehicleModel, mode: Mode, turned: complex = 1.0) -> ModeShape:
+    """Vertical displacements Re(d e/d_max): at e = 1 the instant when the largest is largest.
 
     d = Y φ with the model's own rows Y of displacement, the polygon at its N + 1 nodes, and
     z_b + θ_b l on the bogies, l forward of the bogie's centre, above the wheelsets.
+
+    turned : e, by which the mode has turned and decayed since, e^{λt}.
     """
     vehicle, bogies = model.vehicle, len(model.vehicle.bogies)
     half = vehicle.body.length / 2
     nodes = np.linspace(half, -half, model.body.segments + 1)
     rows = model.output_rows([model.floor(x, "polygon", 0) for x in nodes.tolist()])["d"]
     floor = rows @ mode.shape
-    heave, pitch = mode.shape[mode.shape.size - 2 * bogies :].reshape(bogies, 2).T
+    # The strokes of dampers on elastic mounts come after the bogies.
+    first = [q.name for q in model.lagrangian.coordinates].index("z_b1")
+    heave, pitch = mode.shape[first : first + 2 * bogies].reshape(bogies, 2).T
     above = [heave[b] + pitch[b] * np.array([0.0, *bogie.wheelsets])
              for b, bogie in enumerate(vehicle.bogies)]  # fmt: skip
     every = np.concatenate([floor, *above])
     size = np.abs(every)
     largest = every[np.argmax(size > (1 - 1e-6) * size.max())]  # of equals the foremost: nose up
-    return ModeShape(nodes, *(np.real(part / largest) for part in (floor, heave, pitch)))
+    scaled = (np.real(part * (turned / largest)) for part in (floor, heave, pitch))
+    return ModeShape(nodes, *scaled)
 
 
 def plot_modes(
@@ -73,18 +78,14 @@ def plot_modes(
     if isinstance(count, bool) or int(count) != count or count < 1:
         raise InputError(f"count: found {count}; expected a whole number of at least 1")
     drawn = (find(model) if modes is None else tuple(modes))[: int(count)]
-    size = len(model.lagrangian.coordinates)
-    if not drawn or any(mode.shape.size != size for mode in drawn):
-        raise InputError(f"modes: found {'none' if not drawn else 'shapes of another size'}; "
-                         f"expected modes of this model, of {size} coordinates")  # fmt: skip
+    refuse_others(model, drawn)
     columns = min(2, len(drawn))
     rows = -(-len(drawn) // columns)
     figure = canvas.new_figure(5.2 * columns, 2.0 * rows + 0.8)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for ax, mode in zip(grid.flat, drawn, strict=False):
-        _draw(ax, model.vehicle, mode_shape(model, mode))
-        ax.set_title(f"{mode.label}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}",
-                     **canvas.TITLE)  # fmt: skip
+        draw(ax, model.vehicle, mode_shape(model, mode))
+        ax.set_title(title(mode), **canvas.TITLE)
     for ax in grid.flat[len(drawn) :]:
         ax.remove()
     for ax in grid.flat[max(0, len(drawn) - columns) : len(drawn)]:
@@ -95,7 +96,21 @@ def plot_modes(
     return figure
 
 
-def _draw(ax: Axes, vehicle: Vehicle, shape: ModeShape) -> None:
+def title(mode: Mode) -> str:
+    """What a mode is called in a picture: label, bogies' phase, frequency and damping ratio."""
+    name = f"{mode.label}, {mode.phase}" if mode.phase else mode.label
+    return f"{name}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
+
+
+def refuse_others(model: VehicleModel, modes: Sequence[Mode]) -> None:
+    """Raise InputError for no modes, and for modes of another model."""
+    size = len(model.lagrangian.coordinates)
+    if not modes or any(mode.shape.size != size for mode in modes):
+        raise InputError(f"modes: found {'none' if not modes else 'shapes of another size'}; "
+                         f"expected modes of this model, of {size} coordinates")  # fmt: skip
+
+
+def draw(ax: Axes, vehicle: Vehicle, shape: ModeShape) -> None:
     """The vehicle at rest as dashed lines, displaced in colour, its suspension as thin lines."""
     rest: dict[str, Any] = {"color": canvas.REST, "linewidth": 1.0, "linestyle": "--"}
     floor = _FLOOR + shape.floor

@@ -75,7 +75,7 @@ def plot_comfort_map(
     if figure is not None:
         bar = figure.colorbar(mesh, ax=ax, pad=0.02)
         bar.set_label(VALUES[value])
-    lines = ax.contour(speeds, places, z, levels=8, colors="white", linewidths=0.6)
+    lines = ax.contour(speeds, places, z, levels=6, colors="white", linewidths=0.6)
     ax.clabel(lines, fontsize="x-small", fmt="%.3g")
     ax.set_xlabel("speed [km/h]")
     ax.set_ylabel("position on the floor,\nforward of the middle [m]")

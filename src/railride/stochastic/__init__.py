@@ -12,7 +12,6 @@ from railride.stochastic.maps import comfort_map
 from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum
 from railride.stochastic.process import BAND_HZ, Gain, Process, process
 from railride.stochastic.ride import StochasticRide, stochastic_ride, weighted_rms
-
 from railride.stochastic.shares import mode_shares
 
 __all__ = [

@@ -23,7 +23,7 @@ from railride.weightings import Weighting, weighting
 if TYPE_CHECKING:
     import pandas as pd
 
-SPEEDS = tuple(v / 3.6 for v in range(10, 401, 5))  # m/s
+SPEEDS = tuple(v / 3.6 for v in range(10, 401, 2))  # m/s
 POINTS = 49
 
 
@@ -48,7 +48,7 @@ def comfort_map(
 
     Parameters
     ----------
-    spectrum : of the track. speeds : m/s, each > 0; default 10 to 400 km/h in steps of 5.
+    spectrum : of the track. speeds : m/s, each > 0; default 10 to 400 km/h in steps of 2.
     at : points of the floor, m forward of the body's middle; default 49 from end to end.
     floor : "smooth" or "polygon". weight : default W_k. progress : called with the fraction done.
     changes : parameter values in place of the vehicle's.

@@ -79,7 +79,7 @@ def measured_spectrum(track: Track, segment: float | None = None) -> MeasuredSpe
     >>> from railride import spectrum, synthesise
     >>> found = measured_spectrum(synthesise(spectrum("erri_low"), 2000.0, 0.25, seed=1))
     >>> found.segments, found.band
-    (15, (1.0, 125.125))
+    (14, (1.0, 125.125))
     """
     if segment is None:
         segment = min(track.length / 2, max(SHORTEST, min(LONGEST, track.length / 8)))

@@ -1,7 +1,8 @@
 r"""The outputs of a vehicle on a track as stationary processes.
 
-.. math:: S_y(f) = |H(f)|^2 S_w(f), \qquad S_w(f) = \frac{2\pi}{V}\, S\!\left(\frac{2\pi f}{V}\right)
-          , \qquad \overline{y_W^2} = \int_{f_1}^{f_2} |W|^2 S_y \, df
+.. math:: S_y(f) = |H(f)|^2 S_w(f), \qquad
+          S_w(f) = \frac{2\pi}{V}\, S\!\left(\frac{2\pi f}{V}\right), \qquad
+          \overline{y_W^2} = \int_{f_1}^{f_2} |W|^2 S_y \, df
 
 with the one-sided spectrum S of the track, the response H of an output to it and a weighting W.
 
@@ -77,8 +78,8 @@ class Process:
     """Outputs of one vehicle at one speed over a track of a spectrum, between two frequencies.
 
     form : the vehicle in triangular form. rows, direct : of the outputs. into : the forces of
-    elevations, then of their rates. delays : of the wheelsets, s. speed : m/s. edges : of the panels,
-    Hz. gains : the weightings whose poles the panels respect.
+    elevations, then of their rates. delays : of the wheelsets, s. speed : m/s. edges : of the
+    panels, Hz. gains : the weightings whose poles the panels respect.
     """
 
     form: Triangular
@@ -132,8 +133,8 @@ class Process:
             S_y = (H.real**2 + H.imag**2) * self.elevation_density(f)
             S = np.stack([gain.power(f) * S_y for gain in self.gains])
             if undamped.size:
-                near = np.abs(f - undamped[:, np.newaxis]).min(axis=0) < _LINE * f
-                in_line += S[..., near] @ df[near]
+                near = np.abs(f - undamped[:, np.newaxis]) < _LINE * f
+                in_line += S @ (near * df).T
             squares += S**2 @ df
             by_panel = (*S.shape[:-1], length.size, -1)
             values = (S * df).reshape(by_panel).sum(axis=-1)
@@ -141,20 +142,15 @@ class Process:
             parts.append((values, errors))
         values, errors = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
         found = Integrals(self.edges, values, errors, np.asarray(squares))
-        if undamped.size and (np.asarray(in_line) > _MOST_IN_LINE * found.mean_square).any():
-            raise InputError(
-                f"vehicle: found modes without damping ({', '.join(f'{f:.3g}' for f in undamped)} "
-                "Hz) that take part in the motion asked for: they never settle, and there is no "
-                "stationary ride; expected a damping ratio above "
-                f"{UNDAMPED:g} (give the dampers, or the body, a damping above 0)"
-            )
+        _refuse_lines(undamped, np.asarray(in_line), found.mean_square)
         return found
 
     def _undamped(self) -> Array:
         """Frequencies of undamped modes, Hz, each once."""
         roots = self.eigenvalues[self.eigenvalues.imag > 0]
         least = np.maximum(UNDAMPED * np.abs(roots), 10 * _EPSILON * np.abs(roots).max(initial=0.0))
-        return np.unique((np.abs(roots[-roots.real < least]) / (2 * np.pi)).round(6))
+        undamped = roots[-roots.real < least]
+        return np.unique(undamped.imag / (2 * np.pi)) if undamped.size else np.zeros(0)
 
     def _rounding(self) -> Array:
         """Relative error of every panel's integral from the rounding of the poles beside it.
@@ -162,9 +158,25 @@ class Process:
         They are known to ε max|λ|; half the distance to a pole makes the integrand four times.
         """
         poles = self.eigenvalues / (2j * np.pi)
-        away = distances(self.edges[:-1], self.edges[1:], poles)
         moved = _EPSILON * np.abs(poles).max()
+        poles = poles[(poles.real >= 0) & (np.abs(poles.imag) < 0.1)]  # others: hardly moved
+        away = np.minimum(distances(self.edges[:-1], self.edges[1:], poles), 0.1)
         return np.asarray(10 * _EPSILON + 2 * moved / np.maximum(away, moved))
+
+
+def _refuse_lines(undamped: Array, in_line: Array, mean_square: Array) -> None:
+    """Refuse undamped modes (U,) that hold a share of a mean square: (..., U) of (...)."""
+    if not undamped.size:
+        return
+    felt = in_line > _MOST_IN_LINE * mean_square[..., np.newaxis]
+    found = undamped[felt.reshape(-1, undamped.size).any(axis=0)]
+    if found.size:
+        named = dict.fromkeys(f"{f:.4g}" for f in found)
+        raise InputError(
+            f"vehicle: found modes without damping ({', '.join(named)} Hz) that take part in the "
+            "motion asked for: it never settles, and there is no stationary ride; expected a "
+            f"damping ratio above {UNDAMPED:g} (give the dampers, or the body, a damping above 0)"
+        )
 
 
 def process(

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from railride.numeric import Array
 
-GAUSS_POINTS = 12
+GAUSS_POINTS = 10
 REACH = 1.5  # longest panel, in distances from it to the nearest pole
 TINY = 1e-12  # of the highest frequency: what lies so close to a pole on the axis is not resolved
 _CAUTION = 8.0  # factor on the estimated error
@@ -49,6 +49,7 @@ def graded_panels(ends: Sequence[float], poles: NDArray[np.complex128], period: 
     number = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     of, step = np.repeat(np.arange(start.size), pieces), length / pieces
     a, b = start[of] + number * step[of], start[of] + (number + 1) * step[of]
+    poles = poles[REACH * np.abs(poles.imag) < step.max()]  # no panel is too long for the others
     done: list[Array] = []
     tiny = TINY * ends[-1]
     while a.size:
@@ -62,9 +63,11 @@ def graded_panels(ends: Sequence[float], poles: NDArray[np.complex128], period: 
 
 def distances(a: Array, b: Array, poles: NDArray[np.complex128]) -> Array:
     """How far each panel from a to b (P,) is from the nearest pole."""
+    if not poles.size:
+        return np.full(a.shape, np.inf)
     x, y = poles.real[:, np.newaxis], poles.imag[:, np.newaxis]
-    beside = np.maximum(np.maximum(a - x, x - b), 0.0)
-    return np.asarray(np.sqrt((beside**2 + y**2).min(axis=0)))
+    beside = np.maximum(np.abs((a + b) / 2 - x) - (b - a) / 2, 0.0)
+    return np.asarray(np.sqrt((beside * beside + y * y).min(axis=0)))
 
 
 def gauss_points(edges: Array) -> tuple[Array, Array]:

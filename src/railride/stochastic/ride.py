@@ -121,7 +121,7 @@ def weighted_rms(
     weight: Weighting,
     band: tuple[float, float] = BAND_HZ,
 ) -> tuple[Array, Array]:
-    """Weighted r.m.s. of outputs from matrices in hand, and its estimated relative error, (outputs,).
+    """Weighted r.m.s. of outputs from matrices in hand; its estimated relative error: (outputs,).
 
     Arguments and errors as for :func:`railride.stochastic.process`. For sweeps: nothing is derived,
     looked up or named.

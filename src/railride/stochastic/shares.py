@@ -94,8 +94,8 @@ def mode_shares(
     residues = _Residues(m, rows, x, roots, vectors)
     squares = np.zeros((len(at), len(groups) + 1))
     for _, f, df, _ in whole.pieces():
-        w = np.exp(-whole.delays[:, np.newaxis] * (2j * np.pi * f))
-        parts = residues.parts(2j * np.pi * f, w, member)
+        w = np.asarray(np.exp(-whole.delays[:, np.newaxis] * (2j * np.pi * f)), dtype=complex)
+        parts = residues.parts(np.asarray(2j * np.pi * f, dtype=complex), w, member)
         H = parts.sum(axis=1, keepdims=True)
         density = gain.power(f) * whole.elevation_density(f) * df
         squares += (parts.conj() * H).real @ density
@@ -150,11 +150,11 @@ def _names(roots: Complex, named: Sequence[Mode]) -> list[str]:
     near = np.abs(upper[:, np.newaxis] - known)
     joined = {mode.label: {mode.label} for mode in named}
     for i, one in enumerate(known):
-        for j in np.flatnonzero(np.abs(known - one) < CLOSE * np.abs(one)):
+        for j in np.flatnonzero(np.abs(known - one) < CLOSE * np.abs(one)).tolist():
             both = joined[named[i].label] | joined[named[j].label]
             for label in both:
                 joined[label] = both
-    labels = [named[k].label for k in near.argmin(axis=1)]
+    labels = [named[k].label for k in near.argmin(axis=1).tolist()]
     return [" + ".join(sorted(joined[label])) for label in labels]
 
 
