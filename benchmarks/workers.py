@@ -189,9 +189,11 @@ def a_wrms(rounds: int = 9) -> dict[str, Any]:
     )
     own_times, peer_times = [], []
     for _ in range(rounds):
-        own_times += [
-            timed(lambda: weighted_rms(m, rows, places, SPEED, track, weight))[0] for _ in range(20)
-        ]
+        for _ in range(20):
+            seconds, (own, error) = timed(
+                lambda: weighted_rms(m, rows, places, SPEED, track, weight)
+            )
+            own_times.append(seconds)
         seconds, peer = timed(lambda: control.forced_response(felt, t, u, squeeze=False).outputs)
         peer_times.append(seconds)
     return {

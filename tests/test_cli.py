@@ -286,6 +286,7 @@ def test_travel_adds_suspension_travel_and_wheel_loads(result, run):
     assert "kN" in table
     assert max(map(len, table.splitlines())) <= 120
 
+
 def test_rides_are_drawn_into_a_new_folder(result, tmp_path):
     result(
         "ride", "--segments", "1", "--speed", "200", "--length", "200", "--plots", tmp_path / "a/b"

@@ -14,8 +14,11 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from numpy.testing import assert_allclose, assert_array_equal
+from PIL import Image, ImageSequence
 
+from railride import plots
 from railride.errors import InputError
+from railride.loci import mode_locus
 from railride.modal import Mode, modes
 from railride.parameters import load_vehicle
 from railride.plots import (
@@ -319,8 +322,9 @@ def test_modes_are_drawn_with_label_frequency_and_damping():
     figure = plot_modes(model, found, count=5)
     assert len(figure.axes) == 5
     for ax, mode in zip(figure.axes, found, strict=False):
+        name = mode.label + (f", {mode.phase}" if mode.phase else "")
         assert ax.get_title(loc="left") == (
-            f"{mode.label}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
+            f"{name}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
         )
         body = line(ax, "car body")
         assert_allclose(body.get_xdata(), [12, 6, 0, -6, -12])
@@ -339,6 +343,172 @@ def test_modes_of_another_model_and_no_modes_are_refused():
         plot_modes(coach(4), [])
     with pytest.raises(InputError, match="count: found 0"):
         plot_modes(coach(4), count=0)
+
+
+def test_mode_shapes_are_drawn_where_dampers_stand_on_elastic_mounts():
+    """The dampers' strokes come after the bogies: what is drawn is the bogies."""
+    bogies = tuple(replace(bogie, primary_damper_stiffness=1e10, secondary_damper_stiffness=3e10)
+                   for bogie in load_vehicle("cati2024").bogies)  # fmt: skip
+    model = derive_vehicle(replace(load_vehicle("cati2024"), bogies=bogies), 2)
+    rigid = [mode_shape(coach(2), mode) for mode in modes(coach(2))]
+    named = [mode for mode in modes(model) if mode.label != "damper"]
+    for shape, mode in zip(rigid, named, strict=True):
+        drawn = mode_shape(model, mode)
+        for part in ("floor", "heave", "pitch"):
+            assert_allclose(getattr(drawn, part), getattr(shape, part), atol=0.02)
+
+
+def frames_of(path):
+    """All pictures of a GIF as arrays, and what its header says."""
+    with Image.open(path) as gif:
+        info = (gif.size, gif.info["loop"], gif.info["duration"])
+        return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(gif)], info
+
+
+def moved(frame, other):
+    """The mean difference of two pictures, below the line with the time."""
+    return np.abs(frame[40:].astype(float) - other[40:]).mean()
+
+
+def test_animation_is_one_period_that_goes_round(tmp_path):
+    model = coach(2)
+    bending = next(mode for mode in modes(model) if mode.label == "bending 1")
+    path = tmp_path / "bending.gif"
+    plots.animate_mode(model, bending, path)
+    pictures, (size, loop, duration) = frames_of(path)
+    assert (len(pictures), size, loop, duration) == (24, (720, 340), 0, 60)
+    # Half a period later all is upside down, and the last picture leads to the first.
+    assert moved(pictures[0], pictures[12]) > 3 * moved(pictures[0], pictures[1])
+    assert moved(pictures[23], pictures[0]) < 2 * moved(pictures[11], pictures[12])
+    first = path.read_bytes()
+    plots.animate_mode(model, bending, path)
+    assert path.read_bytes() == first
+
+
+def test_animation_shows_differences_of_phase():
+    """A quarter period on, a part that lags by 90° is where the leading one was."""
+    model = coach(1)
+    shape = np.array([1.0, 0, -1j, 0, -1j, 0])  # the bogies a quarter behind the body
+    mode = Mode(1.0, 0.0, "heave", 1.0, 2j * np.pi, shape)
+    start, quarter = (mode_shape(model, mode, np.exp(2j * np.pi * t)) for t in (0, 0.25))
+    assert_allclose([start.floor[0], start.heave[0]], [1, 0], atol=1e-12)
+    assert_allclose([quarter.floor[0], quarter.heave[0]], [0, 1], atol=1e-12)
+
+
+def test_animation_decays_on_request_and_where_nothing_oscillates(tmp_path, monkeypatch):
+    """At t = T the amplitude is e^{-2πζ/√(1-ζ²)}; a real eigenvalue ends near e^-3."""
+    model = coach(1)
+    turns = []
+
+    def noted(model, mode, turned):
+        turns.append(turned)
+        return mode_shape(model, mode, turned)
+
+    monkeypatch.setattr("railride.plots.animation.mode_shape", noted)
+    heave = modes(model)[0]
+    plots.animate_mode(model, heave, tmp_path / "a.gif", frames=4)
+    assert_allclose(turns, [1, 1j, -1, -1j], atol=1e-12)
+    turns.clear()
+    plots.animate_mode(model, heave, tmp_path / "a.gif", frames=4, decay=True)
+    zeta = heave.damping_ratio
+    assert_allclose(np.abs(turns[2]), np.exp(-np.pi * zeta / np.sqrt(1 - zeta**2)))
+    turns.clear()
+    creeping = next(m for m in modes(model, c_2=1e6) if m.eigenvalue.imag == 0)
+    plots.animate_mode(model, creeping, tmp_path / "a.gif", frames=6)
+    assert_allclose(turns, np.exp(-np.arange(6) / 2))
+    assert len(frames_of(tmp_path / "a.gif")[0]) == 6
+
+
+@pytest.mark.parametrize(
+    ("name", "more", "message"),
+    [
+        ("a.png", {}, r"suffix '\.png'; expected \.gif"),
+        ("a", {}, "no suffix"),
+        ("a.gif", {"frames": 1}, "frames: found 1; expected a whole number from 2 to 500"),
+        ("a.gif", {"frames": 501}, "frames: found 501"),
+        ("a.gif", {"frames": 2.5}, r"frames: found 2\.5"),
+        ("no/a.gif", {"frames": 2}, "a.gif"),
+    ],
+)
+def test_animations_that_cannot_be(name, more, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        plots.animate_mode(coach(2), modes(coach(2))[0], tmp_path / name, **more)
+    with pytest.raises(InputError, match="shapes of another size"):
+        plots.animate_mode(coach(4), modes(coach(2))[0], tmp_path / "a.gif")
+    assert list(tmp_path.iterdir()) == []
+
+
+@cache
+def locus():
+    return mode_locus(coach(2), c_2=np.linspace(10e3, 250e3, 25))
+
+
+def drawn_points(ax):
+    """Every point of a picture's lines, without marks and rays."""
+    lines = [drawn for drawn in ax.lines if drawn.get_linestyle() != "None"
+             and drawn.get_color() != "#CCCCCC"]  # fmt: skip
+    return {tuple(np.round(point, 9)) for drawn in lines for point in drawn.get_xydata()}
+
+
+def test_root_locus_draws_every_eigenvalue_in_hertz():
+    ax = plots.plot_root_locus(locus())
+    expected = np.round(locus()[["real", "imag"]].to_numpy() / (2 * np.pi), 9)
+    assert drawn_points(ax) == {tuple(point) for point in expected}
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Re λ/2π [Hz]", "Im λ/2π [Hz]")
+    assert texts(ax)[-2:] == ["c_2 = 10 kN s/m", "c_2 = 250 kN s/m"]
+    assert set(texts(ax)[:-2]) == set(locus()["label"])
+    start, end = (drawn for drawn in ax.lines if drawn.get_linestyle() == "None")
+    assert (start.get_marker(), end.get_marker()) == ("x", "o")
+    first = locus()[locus()["c_2"] == 10e3]
+    assert_allclose(start.get_xdata(), first["real"] / (2 * np.pi))
+    left, right = ax.get_xlim()
+    assert right == 0
+    assert left < locus().loc[locus()["imag"] > 0, "real"].min() / (2 * np.pi)
+
+
+def rays(ax):
+    return [drawn for drawn in ax.lines if drawn.get_color() == "#CCCCCC"]
+
+
+def test_rays_are_of_constant_damping():
+    ax = plots.plot_root_locus(locus())
+    named = {text.get_text(): text.xy for text in ax.texts}
+    assert len(named) == len(rays(ax)) >= 4
+    for name, (x, y) in named.items():
+        assert_allclose(-x / np.hypot(x, y), float(name.removeprefix("ζ = ")))
+
+
+def test_damping_is_drawn_over_the_parameter():
+    ax = plots.plot_damping(locus())
+    expected = np.column_stack([locus()["c_2"] / 1e3, locus()["damping_ratio"]])
+    assert drawn_points(ax) == {tuple(point) for point in np.round(expected, 9)}
+    assert ax.get_xlabel() == "secondary damping per bogie, c_2 [kN s/m]"
+    assert ax.get_ylabel() == "damping ratio"
+    assert texts(ax) == list(dict.fromkeys(texts(ax)))
+    assert set(texts(ax)) == set(locus()["label"])
+    assert (ax.get_xscale(), ax.get_xlim()) == ("linear", (10, 250))
+    spread = plots.plot_damping(mode_locus(coach(2), c_2=np.geomspace(1e3, 1e6, 5)))
+    assert spread.get_xscale() == "log"
+
+
+def test_loci_of_both_kinds_become_one_picture(tmp_path):
+    figure = plots.plot_loci(locus())
+    assert len(figure.axes) == 2
+    assert not any(ax.get_legend() for ax in figure.axes)
+    save(figure, tmp_path / "locus.png")
+    assert imread(tmp_path / "locus.png").shape[:2] == (840, 1800)
+    with pytest.raises(InputError, match="found no branch, damping_ratio"):
+        plots.plot_root_locus(locus().drop(columns=["branch", "damping_ratio"]))
+    with pytest.raises(InputError, match="no rows"):
+        plots.plot_damping(locus().iloc[:0])
+
+
+def test_loci_where_nothing_oscillates_or_moves_can_be_drawn():
+    creeping = locus()[locus()["imag"] == 0]
+    plots.plot_root_locus(creeping).figure.draw_without_rendering()
+    still = mode_locus(coach(2), f_bending=[9.0, 10.0], c_1=0.0, c_2=0.0)
+    plots.plot_root_locus(still).figure.draw_without_rendering()
+    plots.plot_damping(still).figure.draw_without_rendering()
 
 
 def test_one_segment_is_called_a_rigid_body():

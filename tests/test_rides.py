@@ -178,7 +178,9 @@ def test_spectral_with_a_measured_track_uses_its_spectrum():
     assert case.standard_error > 0
     assert case.record is None
     assert any("line: exact values estimated from a Welch spectrum" in r for r in found.remarks)
-    assert any("55.6 Hz; nothing outside" in remark for remark in found.remarks)  # 1 m to half a segment
+    assert any(
+        "55.6 Hz; nothing outside" in remark for remark in found.remarks
+    )  # 1 m to half a segment
 
 
 def test_a_track_without_a_spectrum_has_no_exact_value():

@@ -166,13 +166,13 @@ def test_panels_are_no_longer_than_from_the_poles_nor_than_a_period():
     assert 20.0 in edges
     for a, b in itertools.pairwise(edges):
         nearest = np.clip(poles.real, a, b)
-        reach = quadrature.REACH * np.abs(poles - nearest).min()
+        reach = quadrature.REACH * np.abs(poles - nearest).min() * (1 + 1e-9)
         assert b - a <= min(2.0, reach) * (1 + 1e-12)
 
 
 def test_gauss_points_are_exact_for_polynomials():
     f, df = gauss_points(np.array([0.0, 0.3, 2.0]))
-    assert df @ f**19 == pytest.approx(2.0**20 / 20, rel=1e-12)
+    assert df @ f**23 == pytest.approx(2.0**24 / 24, rel=1e-12)
 
 
 def test_white_velocity_equals_lyapunovs_equation():

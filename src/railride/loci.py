@@ -20,6 +20,7 @@ Naval Research Logistics Quarterly 2 (1955), 83-97 (assignment).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from railride.errors import InputError
 from railride.modal import Solution, solve
 from railride.naming import energy
+from railride.parameter_values import ParameterValues
 from railride.vehicle import VehicleModel
 
 if TYPE_CHECKING:
@@ -36,7 +38,11 @@ if TYPE_CHECKING:
 ALIKE = 0.9  # modal assurance between steps: below it a step is halved
 NEAR = 0.1  # of |λ_i| + |λ_j|: farther, and a step is halved
 HALVINGS = 12  # of one step: where a pair becomes real, its shapes change without limit
-UNIT_OF = {"k_theta": "N m/rad", "c_theta": "N m s/rad"}  # of what follows from other parameters
+MOST_BETWEEN = 200  # values in one step, should nothing ever be without doubt
+UNIT_OF = {  # and meaning, of what follows from other parameters
+    "k_theta": ("N m/rad", "joint stiffness"),
+    "c_theta": ("N m s/rad", "joint damping"),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +59,8 @@ def mode_locus(model: VehicleModel, **parameter: ArrayLike) -> pd.DataFrame:
 
     Parameters
     ----------
-    parameter : ``name=values``, a name of :meth:`VehicleModel.values` and at least two values, SI,
-        ascending; other parameters may be changed to single numbers beside it.
+    parameter : ``name=values``, a symbol of :meth:`VehicleModel.values` (or its key in parameter
+        files) and at least two values, SI, ascending; others may be changed to single numbers.
 
     Returns
     -------
@@ -74,12 +80,13 @@ def mode_locus(model: VehicleModel, **parameter: ArrayLike) -> pd.DataFrame:
     >>> model = derive_vehicle(load_vehicle("cati2024"), segments=2)
     >>> locus = mode_locus(model, c_2=[50e3, 70e3, 90e3])
     >>> [round(zeta, 3) for zeta in locus[locus.label == "heave"].damping_ratio]
-    [0.197, 0.278, 0.36]
+    [0.198, 0.278, 0.36]
     """
     import pandas as pd
 
     name, values, fixed = _varied(parameter)
-    model.values(**parameter)  # a wrong name is told before anything is solved
+    name = described(model, name)[0]
+    model.values(**fixed)  # a wrong name is told before anything is solved
     points = [_point(model, name, value, fixed) for value in values.tolist()]
     branches = _follow(model, name, fixed, points)
     numbers: dict[int, int] = {}
@@ -94,17 +101,25 @@ def mode_locus(model: VehicleModel, **parameter: ArrayLike) -> pd.DataFrame:
                 "branch": number,
             })  # fmt: skip
     table = pd.DataFrame(rows)
-    unit, meaning = described(model, name)
+    _, unit, meaning = described(model, name)
     table.attrs = {"parameter": name, "unit": unit, "meaning": meaning}
     return table
 
 
-def described(model: VehicleModel, name: str) -> tuple[str, str]:
-    """Unit and meaning of a parameter by its symbol; empty where it follows from others."""
+def described(model: VehicleModel, name: str) -> tuple[str, str, str]:
+    """Symbol, unit and meaning of a parameter; unit and meaning empty where it follows from others.
+
+    name : the symbol, or its key in parameter files.
+
+    Raises
+    ------
+    InputError : a name that the model does not have, with the list of those that it has.
+    """
+    symbol = ParameterValues(model.body, model.running_gear).symbol_of(name)
     for parameter in model.parameters:
-        if parameter.symbol.name == name:
-            return parameter.unit, parameter.meaning
-    return UNIT_OF.get(name, ""), ""
+        if parameter.symbol.name == symbol:
+            return symbol, parameter.unit, parameter.meaning
+    return symbol, *UNIT_OF.get(symbol, ("", ""))
 
 
 def _varied(parameter: dict[str, Any]) -> tuple[str, NDArray[np.float64], dict[str, Any]]:
@@ -118,7 +133,8 @@ def _varied(parameter: dict[str, Any]) -> tuple[str, NDArray[np.float64], dict[s
     try:
         values = np.asarray(parameter[name], dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"{name}: found {parameter[name]!r}; expected numbers in SI units") from None
+        found = f"{name}: found {parameter[name]!r}"
+        raise InputError(f"{found}; expected numbers in SI units") from None
     if values.size < 2 or not np.isfinite(values).all() or not (np.diff(values) > 0).all():
         raise InputError(
             f"{name}: found {np.array2string(values, threshold=6, edgeitems=2)}; expected at least "
@@ -141,17 +157,21 @@ def _follow(
     model: VehicleModel, name: str, fixed: dict[str, Any], points: list[_Point]
 ) -> list[NDArray[np.int_]]:
     """The branch of every eigenvalue at every point."""
+    left = 0  # values that may still be put into the present step
 
     def between(first: _Point, last: _Point, halvings: int) -> NDArray[np.int_]:
         """Where each eigenvalue of the first point goes to at the last."""
+        nonlocal left
         to, certain = _matched(first, last)
-        if certain or halvings == 0:
+        if certain or halvings == 0 or left == 0:
             return to
+        left -= 1
         middle = _point(model, name, (first.value + last.value) / 2, fixed)
         return between(middle, last, halvings - 1)[between(first, middle, halvings - 1)]
 
     branches = [np.arange(points[0].solution.roots.size)]
-    for first, last in zip(points, points[1:], strict=False):
+    for first, last in pairwise(points):
+        left = MOST_BETWEEN
         branch = np.empty_like(branches[-1])
         branch[between(first, last, HALVINGS)] = branches[-1]
         branches.append(branch)

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 
 from railride.firstorder import FirstOrder
 from railride.numeric import Array, Matrices
+from railride.running_gear import secondary_stroke
 from railride.vehicle import VehicleModel
 
 ComplexArray = NDArray[np.complex128]
@@ -53,11 +54,16 @@ class Name:
 
 @dataclass(frozen=True)
 class Motions:
-    """The free motions: a label for each, and their shapes as columns of ``basis`` (n, motions)."""
+    """The free motions: a label for each, and their shapes as columns of ``basis`` (n, motions).
+
+    strokes : of the secondary and of the primary dampers, from the front, numbered as the
+        coordinates without mass are.
+    """
 
     labels: tuple[str, ...]
     basis: Array
     bogies: int
+    strokes: tuple[tuple[int, ...], ...]
 
     def amplitudes(self, M: Array, shapes: ComplexArray) -> ComplexArray:
         """a_k = b_kᵀ M φ / (b_kᵀ M b_k)^½ of shapes (n, modes): array (motions, modes)."""
@@ -85,7 +91,11 @@ def free_motions(model: VehicleModel, A: Matrices) -> tuple[list[str], Array]:
 def motions(model: VehicleModel, A: Matrices) -> Motions:
     """The free motions of a vehicle, at its matrices A."""
     labels, basis = free_motions(model, A)
-    return Motions(tuple(labels), basis, len(model.vehicle.bogies))
+    names = [q.name for q in model.running_gear.strokes]
+    secondary = {secondary_stroke(b).name for b in model.running_gear.bogies}
+    strokes = (tuple(k for k, name in enumerate(names) if name in secondary),
+               tuple(k for k, name in enumerate(names) if name not in secondary))  # fmt: skip
+    return Motions(tuple(labels), basis, len(model.vehicle.bogies), strokes)
 
 
 def _free_body_shapes(model: VehicleModel, M: Array) -> Array:
@@ -154,9 +164,9 @@ def _form(E: Array, X: ComplexArray) -> Array:
 
 
 def _coupling(free: Motions, A: Matrices, x: FirstOrder) -> Array:
-    """A form in x that tells all motions apart, neighbouring bogies coupled most of all."""
+    """A form in x that tells all motions apart and couples neighbours, the mirror image's too."""
     own = np.einsum("ik,ij,jk->k", free.basis, A.K, free.basis)
-    count, strokes = len(free.labels), int((~x.inertial).sum())
+    count = len(free.labels)
     levels = {label: 4.0 * k for k, label in enumerate(dict.fromkeys(free.labels))}
     G = np.diag([levels[label] for label in free.labels])
     for kind in range(2):
@@ -164,10 +174,13 @@ def _coupling(free: Motions, A: Matrices, x: FirstOrder) -> Array:
         G[at[1:], at[:-1]] = G[at[:-1], at[1:]] = -1.0
     rows = np.linalg.inv(free.basis[x.inertial]) * np.sqrt(own)[:, np.newaxis]
     form = np.zeros_like(x.A)
-    k = count
-    form[:k, :k] = rows.T @ G @ rows
-    held = np.diagonal(A.K)[~x.inertial]
-    form[k : k + strokes, k : k + strokes] = np.diag(-held * (1.0 + np.arange(strokes)))
+    form[:count, :count] = rows.T @ G @ rows
+    held: Array = np.sqrt(np.diagonal(A.K)[~x.inertial])
+    for level, strokes in enumerate(free.strokes, start=1):
+        place = np.array(strokes, dtype=int)
+        at, size = count + place, held[place]
+        form[at, at] = -4.0 * level * size**2
+        form[at[1:], at[:-1]] = form[at[:-1], at[1:]] = -size[1:] * size[:-1]
     return form
 
 

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from railride.cli import options, output
+from railride.cli import loci, options, output
 from railride.cli.options import FORMATS, Arguments, build_model
 from railride.cli.progress import working
+from railride.errors import InputError
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from railride.modal import Mode
     from railride.vehicle import VehicleModel
 
 ABREAST = 7  # mode shapes beside one another in a table
-BRANCHES_ABREAST = 5
 LOCUS, PICTURES = "Over a parameter", "Pictures"
 MOST_POINTS = 5000
 
@@ -74,7 +72,7 @@ def modes(
 
     Example:  railride modes --segments 2
 
-    Example:  railride modes --vary c_2 --from "10 kN*s/m" --to "200 kN*s/m" --plot locus.png
+    Over a parameter:  railride modes --vary c_2 --from "10 kN*s/m" --to "200 kN*s/m"
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
@@ -89,7 +87,8 @@ def modes(
         model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
                             bending_damping)  # fmt: skip
         if vary is not None:
-            text = _locus(model, form, _values(model, vary, first, last, count, log=log), plot)
+            varied = loci.values(model, vary, first, last, count, log=log)
+            text = loci.result(model, form, varied, plot)
         else:
             text = _modes(model, form, plot, animate, mode)
     output.write(text, to)
@@ -101,14 +100,15 @@ def modes(
 
 def _check_pictures(given: Arguments, plot: str | None, animate: str | None) -> None:
     """Note files whose names do not say that they are pictures, or animations."""
-    if plot is not None:
-        from railride.plots.canvas import picture_format
+    from pathlib import Path
 
-        _note(given, "--plot", lambda: picture_format(plot))
-    if animate is not None:
-        from railride.plots.animation import check_animation
-
-        _note(given, "--animate", lambda: check_animation(animate))
+    kinds = (("--plot", plot, (".png", ".pdf", ".svg")), ("--animate", animate, (".gif",)))
+    for option, path, suffixes in kinds:
+        suffix = "" if path is None else Path(path).suffix
+        if path is not None and suffix.lower() not in suffixes:
+            given.faults.add(f"{option} {path!r}", f"the suffix {suffix!r}" if suffix else
+                             "no suffix", f"{'one of ' if suffixes[1:] else ''}"
+                             f"{', '.join(suffixes)}", "it says which kind to draw")  # fmt: skip
 
 
 def _check_together(
@@ -133,29 +133,6 @@ def _check_together(
             given.conflict("--vary", option)
 
 
-def _values(
-    model: VehicleModel, name: str, first: str | None, last: str | None, count: int, *, log: bool
-) -> dict[str, Any]:
-    """The parameter and its values, SI: texts in its own unit."""
-    import numpy as np
-
-    from railride.loci import described
-
-    known = model.values()
-    if name not in known:
-        model.values(**{name: 1.0})  # refuses it with the list, unless it is a key of the files
-    given = Arguments()
-    unit = described(model, name)[0]
-    low, high = given.number("--from", first, unit), given.number("--to", last, unit)
-    if None not in (low, high) and low >= high:
-        given.faults.add("--from", f"{low:g} {unit}, and {high:g} {unit} for --to".replace(" ,", ","),
-                         "a value below that of --to")  # fmt: skip
-    elif low is not None and log and low <= 0:
-        given.faults.add("--log", f"{low:g} {unit} for --from", "values above 0")
-    given.check()
-    return {name: (np.geomspace if log else np.linspace)(low, high, count)}
-
-
 def _modes(
     model: VehicleModel, form: str, plot: str | None, animate: str | None, mode: str | None
 ) -> str:
@@ -164,16 +141,14 @@ def _modes(
 
     found = modal.modes(model)
     undamped = modal.undamped_frequencies(model.matrices())
-    chosen = None if mode is None else _chosen(found, mode)
-    if plot is not None:
+    chosen = found if mode is None else (_chosen(found, mode),)
+    if plot is not None or animate is not None:
         from railride import plots
 
-        drawn = found if chosen is None else [chosen]
-        plots.save(plots.plot_modes(model, drawn), plot)
-    if animate is not None:
-        from railride import plots
-
-        plots.animate_mode(model, found[0] if chosen is None else chosen, animate)
+        if plot is not None:
+            plots.save(plots.plot_modes(model, chosen), plot)
+        if animate is not None:
+            plots.animate_mode(model, chosen[0], animate)
     return output.result(
         form,
         as_json(model, found, undamped),
@@ -196,52 +171,10 @@ def _chosen(found: Sequence[Mode], text: str) -> Mode:
     if len(named) == 1:
         return named[0][1]
     listed = ", ".join(
-        f"{k} ({m.label}{', ' if m.phase else ''}{m.phase}, {m.frequency_hz:.4g} Hz)"
-        for k, m in named or enumerate(found, start=1)
+        f"{k} ({_named(m)}, {m.frequency_hz:.4g} Hz)" for k, m in named or enumerate(found, start=1)
     )
     what = f"{text!r}, of which there are {len(named)}" if named else repr(text)
-    given.faults.add("--mode", what, f"one of {listed}", "give the number")
-    given.check()
-    raise AssertionError
-
-
-def _locus(model: VehicleModel, form: str, varied: dict[str, Any], plot: str | None) -> str:
-    """The locus as text; its picture is drawn."""
-    from railride.loci import mode_locus
-
-    locus = mode_locus(model, **varied)
-    if plot is not None:
-        from railride import plots
-
-        plots.save(plots.plot_loci(locus), plot)
-    rows = [] if form == "table" else locus.to_dict("records")
-    name = locus.attrs["parameter"]
-    document = {"parameter": name, "unit": locus.attrs["unit"], "locus": rows}
-    return output.result(form, document, rows, lambda: _locus_table(locus),
-                         [*model.vehicle.remarks, *model.remarks])  # fmt: skip
-
-
-def _locus_table(locus: pd.DataFrame) -> str:
-    """Frequency and damping ratio of every branch at every value, some branches abreast."""
-    name, unit = locus.attrs["parameter"], locus.attrs["unit"]
-    values = locus[name].unique().tolist()
-    branches = dict(list(locus.groupby("branch")))
-    tables = []
-    for start in range(0, len(branches), BRANCHES_ABREAST):
-        some = dict(list(branches.items())[start : start + BRANCHES_ABREAST])
-        columns = [(f"{name}\n[{unit}]" if unit else name, ".6g")]
-        cells = []
-        for number, rows in some.items():
-            labels = list(dict.fromkeys(rows["label"]))
-            columns.append((f"{number} {labels[0]}" + (" …" if labels[1:] else ""), ">"))
-            entries = zip(rows["frequency_hz"], rows["damping_ratio"], strict=True)
-            cells.append(dict(zip(rows[name], (f"{f:.4f} {z:7.4f}" for f, z in entries),
-                                  strict=True)))  # fmt: skip
-        listed = [(value, *(cell.get(value, "–") for cell in cells)) for value in values]
-        title = f"Modes over {name}: |λ|/2π [Hz] and damping ratio of each branch"
-        tables.append(output.table_text(title if not start else "Modes, continued", columns,
-                                        listed))  # fmt: skip
-    return "\n".join(tables)
+    raise InputError(f"command line: --mode: found {what}; expected one of {listed} (its number)")
 
 
 def as_json(model: VehicleModel, found: Sequence[Mode], undamped: Any) -> dict[str, Any]:
@@ -261,6 +194,10 @@ def as_json(model: VehicleModel, found: Sequence[Mode], undamped: Any) -> dict[s
     return {"modes": rows, "undamped_hz": undamped}
 
 
+def _named(mode: Mode) -> str:
+    return f"{mode.label}, {mode.phase}" if mode.phase else mode.label
+
+
 def as_table(found: Sequence[Mode], undamped: Any) -> str:
     """Modes as a table, the undamped frequencies below."""
     import textwrap
@@ -268,7 +205,7 @@ def as_table(found: Sequence[Mode], undamped: Any) -> str:
     columns = [("", "d"), ("mode", ""), ("|λ|/2π [Hz]", ".4f"), ("damping ratio", ".4g"),
                ("energy share", ".0%")]  # fmt: skip
     rows = [
-        (number, f"{m.label}, {m.phase}" if m.phase else m.label, m.frequency_hz, m.damping_ratio, m.share)
+        (number, _named(m), m.frequency_hz, m.damping_ratio, m.share)
         for number, m in enumerate(found, start=1)
     ]
     listed = textwrap.fill("  ".join(f"{f:.4f}" for f in undamped), 100, initial_indent="  ",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -49,6 +49,8 @@ def animate_mode(
     InputError : another suffix, a file that cannot be written, a number of frames out of range, a
         mode of another model.
     """
+    from PIL.Image import Dither
+
     check_animation(path)
     if isinstance(frames, bool) or int(frames) != frames or not 2 <= frames <= MOST_FRAMES:
         raise InputError(f"frames: found {frames}; expected a whole number from 2 to {MOST_FRAMES}")
@@ -56,7 +58,7 @@ def animate_mode(
     pictures = _pictures(model, mode, int(frames), decay=decay)
     # One palette for all frames, or their colours would flicker.
     palette = pictures[0].quantize(colors=128)
-    first, *others = (p.quantize(palette=palette, dither=0) for p in pictures)
+    first, *others = (p.quantize(palette=palette, dither=Dither.NONE) for p in pictures)
     content = BytesIO()
     first.save(content, format="GIF", save_all=True, append_images=others, duration=FRAME_MS,
                loop=0, optimize=False, disposal=1)  # fmt: skip
@@ -79,8 +81,9 @@ def _pictures(model: VehicleModel, mode: Mode, frames: int, *, decay: bool) -> l
     root = mode.eigenvalue
     length = 2 * np.pi / root.imag if root.imag else CREEP / abs(root)
     figure = canvas.new_figure(7.2, 3.4)
+    figure.set_dpi(DPI)
     ax = figure.add_subplot()
-    pictures = []
+    pictures: list[Image] = []
     for time in np.arange(frames) / frames * length:
         ax.clear()
         growth = root if decay or not root.imag else 1j * root.imag
@@ -107,10 +110,10 @@ def _time(time: float, length: float) -> str:
 
 
 def _picture(figure: Figure) -> Image:
+    """The figure as it is now."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL.Image import fromarray
 
-    figure.set_dpi(DPI)
-    canvas_ = FigureCanvasAgg(figure)
-    canvas_.draw()
-    return fromarray(np.asarray(canvas_.buffer_rgba())).convert("RGB")
+    drawn: Any = FigureCanvasAgg(figure)
+    drawn.draw()
+    return fromarray(np.asarray(drawn.buffer_rgba())).convert("RGB")

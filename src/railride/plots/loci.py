@@ -135,7 +135,7 @@ def _look(label: str) -> dict[str, Any]:
     """Colour and line of a label."""
     colour, style = _LOOKS.get(label, ("", ""))
     if not colour:
-        number = int(label.split()[-1]) - 1 if label.split()[-1].isdigit() else 0
+        number = int(label.removeprefix("bending ")) - 1  # no other label is left
         colour = _BENDING[number % len(_BENDING)]
         style = _BENDING_STYLES[number // len(_BENDING) % len(_BENDING_STYLES)]
     return {"color": colour, "linestyle": style, "linewidth": 1.5}

@@ -77,8 +77,8 @@ class Integrals:
 class Process:
     """Outputs of one vehicle at one speed over a track of a spectrum, between two frequencies.
 
-    form : the vehicle in triangular form. rows, direct : of the outputs. into : the forces of
-    elevations, then of their rates. delays : of the wheelsets, s. speed : m/s. edges : of the
+    form : the vehicle in triangular form. rows, direct : of the outputs. into : the states from
+    elevations, then from their rates. delays : of the wheelsets, s. speed : m/s. edges : of the
     panels, Hz. gains : the weightings whose poles the panels respect.
     """
 
@@ -102,9 +102,10 @@ class Process:
         s = 2j * np.pi * frequency
         w = np.exp(-self.delays[:, np.newaxis] * s)
         x = self.form.states(s, self.into @ np.concatenate([w, s * w]))
-        parts = [rows @ w if p == 0 else s**p * (rows @ w) for p, rows in self.direct]
-        parts += [rows @ x if p == 0 else s**p * (rows @ x) for p, rows in self.rows]
-        return np.asarray(sum(parts, start=np.zeros((1, 1), dtype=complex)))
+        power = (1.0, s, -((2 * np.pi * frequency) ** 2))
+        H = [rows @ w * power[p] for p, rows in self.direct]
+        H += [rows @ x * power[p] for p, rows in self.rows]
+        return np.asarray(sum(H[1:], start=H[0]))
 
     def elevation_density(self, frequency: Array) -> Array:
         """S_w at frequencies in Hz, m²/Hz."""
@@ -214,7 +215,8 @@ def process(
     poles = poles[poles.real >= 0]  # the others are their mirror images in the imaginary axis
     marks = np.concatenate([speed * np.asarray(spectrum.breakpoints) / (2 * np.pi), ends])
     marks = np.unique(marks[(marks > low) & (marks < high)])
-    edges = graded_panels([low, *marks, high], poles, 1 / max(float(np.ptp(delays)), 1 / high))
+    period = 1 / max(float(delays.max() - delays.min()), 1 / high)
+    edges = graded_panels([low, *marks, high], poles, period)
     return Process(
         form,
         tuple((p, rows[k] @ form.left) for p, k in enumerate("dva") if rows[k].any()),

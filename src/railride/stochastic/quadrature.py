@@ -17,15 +17,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from math import hypot
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from railride.numeric import Array
 
-GAUSS_POINTS = 10
+GAUSS_POINTS = 12
 REACH = 1.5  # longest panel, in distances from it to the nearest pole
 TINY = 1e-12  # of the highest frequency: what lies so close to a pole on the axis is not resolved
+SHARP = 1e-2  # of the longest panel: poles that are closer to the axis
 _CAUTION = 8.0  # factor on the estimated error
 _TAIL = 3  # coefficients that tell how fast they decay: even and odd ones are not alike
 
@@ -44,21 +46,41 @@ def graded_panels(ends: Sequence[float], poles: NDArray[np.complex128], period: 
     array : ascending edges; every panel is at most :data:`REACH` times as long as it is away from
         the nearest pole.
     """
-    start, length = np.asarray(ends[:-1], dtype=float), np.diff(ends)
+    tiny = TINY * ends[-1]
+    marks = np.sort(np.concatenate([ends, *_around_sharp(poles, ends, period, tiny)]))
+    marks = np.concatenate([marks[:-1][np.diff(marks) > tiny / 2], marks[-1:]])
+    length = np.diff(marks)
     pieces = np.ceil(length / period * (1 - 1e-12)).astype(int)
     number = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    of, step = np.repeat(np.arange(start.size), pieces), length / pieces
-    a, b = start[of] + number * step[of], start[of] + (number + 1) * step[of]
+    start, step = np.repeat(marks[:-1], pieces), np.repeat(length / pieces, pieces)
+    a, b = start + number * step, start + (number + 1) * step
     poles = poles[REACH * np.abs(poles.imag) < step.max()]  # no panel is too long for the others
     done: list[Array] = []
-    tiny = TINY * ends[-1]
     while a.size:
-        fits = b - a <= np.maximum(REACH * distances(a, b, poles), tiny)
+        fits = b - a <= np.maximum(REACH * distances(a, b, poles) * (1 + 1e-9), tiny)
         done.append(a[fits])
         a, b = a[~fits], b[~fits]
         middle = (a + b) / 2
         a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
     return np.concatenate([np.sort(np.concatenate(done)), ends[-1:]])
+
+
+def _around_sharp(
+    poles: NDArray[np.complex128], ends: Sequence[float], period: float, tiny: float
+) -> list[list[float]]:
+    """Edges on both sides of poles close to the axis, as far apart as the rule allows.
+
+    Halving panels over and over would find such edges too, but more of them and more slowly.
+    """
+    found = []
+    for pole in poles[np.abs(poles.imag) < SHARP * period].tolist():
+        away = max(abs(pole.imag), tiny)
+        offset, marks = REACH * away / 2, []
+        while offset < period:
+            marks += [x for x in (pole.real - offset, pole.real + offset) if ends[0] < x < ends[-1]]
+            offset += REACH * hypot(offset, away)
+        found.append(marks)
+    return found
 
 
 def distances(a: Array, b: Array, poles: NDArray[np.complex128]) -> Array:
