@@ -18,7 +18,8 @@ SOURCE = Path(railride.__file__).parent
 ORDER = """
 errors files units toml_tables vehicle_data parameters
 lagrange jets linear halfbody numeric
-plausibility bodies running_gear parameter_values vehicle firstorder naming modal loci statespace spectra frequency bodes
+plausibility bodies running_gear parameter_values vehicle
+firstorder naming modal loci statespace spectra frequency bodes
 track trackfile response weightings scales comfort stochastic timerun rides active
 markup text report halfbody_report plots cli derive __main__
 """.split()

@@ -78,7 +78,7 @@ class ParameterValues:
                 keys[key] = self.running_gear.symbol(key, 1).name
         keys = {key: symbol for key, symbol in keys.items() if symbol in symbols}
         if name in symbols or name in keys:
-            return keys.get(name, name)
+            return str(keys.get(name, name))
         near = difflib.get_close_matches(name, [*symbols, *keys], n=3)
         listed = ", ".join(f"{s} ({meaning})" for s, meaning in sorted(symbols.items()))
         hint = f" (did you mean {' or '.join(near)}?)" if near else ""
