@@ -176,7 +176,7 @@ def ride(
     speeds, at = _several(speeds, "speeds"), _several(at, "at")
     _check_arguments(model, speeds, at, length, rate)
     source, weighted_by = load_track(track), weighting(weight)
-    road = None if spectral else _road(source, speeds, length, seed)
+    road = None if spectral else ridden_track(source, speeds, length, seed)
     cases: list[Case] = []
     of, said = exact_spectrum(source, needed=spectral)
     section = [] if spectral else _section(source, length)
@@ -319,7 +319,9 @@ def _exact_cases(
     ]
 
 
-def _road(source: Spectrum | Track, speeds: Sequence[float], length: float, seed: int) -> Track:
+def ridden_track(
+    source: Spectrum | Track, speeds: Sequence[float], length: float, seed: int
+) -> Track:
     """The measured track, or a synthetic one with enough of it before the rated section.
 
     It is one track for all speeds and bodies: its length does not depend on their run-ins.

@@ -76,7 +76,7 @@ def time_run(
     system = system_arrays(model, [model.floor(x, floor) for x in at])
     settling, remark = run_in_time(model, system, speed, weight)
     remarks = [remark] if remark else []
-    track, before = _with_run_in(model, speed, track, length, speed * settling)
+    track, before = with_run_in(model, speed, track, length, speed * settling)
     if before < speed * settling * (1 - 1e-9):
         remarks.append(
             f"{track.remarks[-1]}; that leaves {before:.0f} m of run-in, {settling:.1f} s would "
@@ -144,7 +144,7 @@ def run_in_time(
     )
 
 
-def _with_run_in(
+def with_run_in(
     model: VehicleModel, speed: float, track: Track, length: float, wanted: float
 ) -> tuple[Track, float]:
     """The track, with a taper before it if it needs one, and the metres of run-in it gives."""

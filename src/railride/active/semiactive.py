@@ -29,10 +29,10 @@ from railride.frequency import wheelset_delays
 from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
 from railride.response import first_order_hold, simulate
-from railride.rides import RATE, _road, load_track
+from railride.rides import RATE, load_track, ridden_track
 from railride.spectra import Spectrum, check_speed
 from railride.statespace import system_arrays
-from railride.timerun import _with_run_in, run_in_time
+from railride.timerun import run_in_time, with_run_in
 from railride.track import Track
 from railride.vehicle import Output, VehicleModel
 from railride.weightings import weighting
@@ -119,8 +119,8 @@ def semi_active_ride(
     source, weighted_by = load_track(track), weighting(weight)
     points = [model.floor(x, floor) for x in at]
     settling, said = run_in_time(model, system_arrays(model, points), speed, weighted_by)
-    road, before = _with_run_in(
-        model, speed, _road(source, [speed], length, seed), length, speed * settling
+    road, before = with_run_in(
+        model, speed, ridden_track(source, [speed], length, seed), length, speed * settling
     )
     time, u, rated = _inputs(model, speed, road, length, before, rate)
     designs = [

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, build_model
+from railride.cli.options import FORMATS, Arguments, build_model, kmh
 from railride.cli.progress import working
-from railride.cli.ride import _kmh
 
 if TYPE_CHECKING:
     from railride.bodes import BodeResponse
@@ -162,7 +161,7 @@ def _check_picture(given: Arguments, plot: str | None) -> None:
 def _rows(found: Sequence[BodeResponse]) -> list[dict[str, Any]]:
     return [
         {
-            "speed_kmh": _kmh(r.speed),
+            "speed_kmh": kmh(r.speed),
             "position_m": r.position,
             "frequency_hz": f,
             "magnitude": magnitude,
@@ -193,7 +192,7 @@ def _table(found: Sequence[BodeResponse]) -> str:
     for r in found:
         kinds = dict.fromkeys(range(f.size), "") if listed else _extremes(r.magnitude)
         rows += [
-            (_kmh(r.speed), r.position, f[k], r.magnitude[k], r.phase_deg[k], kind)
+            (kmh(r.speed), r.position, f[k], r.magnitude[k], r.phase_deg[k], kind)
             for k, kind in sorted(kinds.items())
         ]
     columns, rows = (columns, [row[:-1] for row in rows]) if listed else (
@@ -221,6 +220,6 @@ def _zeros(found: Sequence[BodeResponse]) -> str:
         for zeros in r.zeros:
             some = ", ".join(f"{f:.4g}" for f in zeros.frequency[:8])
             more = ", …" if zeros.frequency.size > 8 else ""
-            lines.append(f"  {_kmh(r.speed):g} km/h, {r.position:g} m, {zeros.cause} "
+            lines.append(f"  {kmh(r.speed):g} km/h, {r.position:g} m, {zeros.cause} "
                          f"{zeros.distance:g} m: {some}{more} Hz")  # fmt: skip
     return "\nZeros at (k + ½)·V/distance:\n" + "\n".join(lines) + "\n" if lines else ""

@@ -171,3 +171,12 @@ def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> 
         raise InputError(f"vehicle {found.name}: found {asked} for a car body whose bending is not "
                          "known; expected its stiffness (give --bending-frequency or "
                          "--joint-stiffness, or take one segment)")  # fmt: skip
+
+
+def kmh(speed: float) -> float:
+    """Kilometres per hour as they were typed: the conversion's last bit is rounded away.
+
+    >>> kmh(145 / 3.6), kmh(0.1 / 3.6), kmh(40.0)
+    (145.0, 0.1, 144.0)
+    """
+    return float(f"{3.6 * speed:.15g}")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, build_model
+from railride.cli.options import FORMATS, Arguments, build_model, kmh
 from railride.cli.progress import working
 
 if TYPE_CHECKING:
@@ -188,7 +188,7 @@ def _travel(
     distance = 1000.0 if length is None else length
     return [
         {
-            "speed_kmh": _kmh(speed),
+            "speed_kmh": kmh(speed),
             "output": one.name,
             "unit": one.unit,
             "rms": one.rms,
@@ -232,18 +232,9 @@ def _draw(found: RideResult, folder: str) -> str:
     return ", ".join(map(str, plots.save_ride_plots(found, folder)))
 
 
-def _kmh(speed: float) -> float:
-    """Kilometres per hour as they were typed: the conversion's last bit is rounded away.
-
-    >>> _kmh(145 / 3.6), _kmh(0.1 / 3.6), _kmh(40.0)
-    (145.0, 0.1, 144.0)
-    """
-    return float(f"{3.6 * speed:.15g}")
-
-
 def _row(case: Case) -> dict[str, Any]:
     return {
-        "speed_kmh": _kmh(case.speed),
+        "speed_kmh": kmh(case.speed),
         "position_m": case.position,
         "body": case.body,
         "segments": case.segments,
@@ -275,7 +266,7 @@ def _table(result: RideResult) -> str:
         ("W_z", ".2f"), ("comfort\n(paper's Table 3)", ""),
     ]  # fmt: skip
     rows = [
-        (_kmh(c.speed), c.position, c.a_rms, c.a_wrms, c.a_wrms_exact, c.standard_error,
+        (kmh(c.speed), c.position, c.a_rms, c.a_wrms, c.a_wrms_exact, c.standard_error,
          c.mtvv, c.vdv, c.crest_factor, c.wz, c.level)
         for c in result.cases
     ]  # fmt: skip
@@ -285,7 +276,7 @@ def _table(result: RideResult) -> str:
              f"{result.weighting} weighted")  # fmt: skip
     scales = [*columns[:2], *((scale, "") for scale in first.levels)]
     classes = [
-        (_kmh(c.speed), c.position, *(" or ".join(found) for found in c.levels.values()))
+        (kmh(c.speed), c.position, *(" or ".join(found) for found in c.levels.values()))
         for c in result.cases
     ]
     values = output.table_text(title, columns, rows)
