@@ -79,13 +79,18 @@ def first_order(m: Matrices) -> FirstOrder:
 
 def _inverse_of_masses(M: Array) -> Array:
     scale = 1 / np.sqrt(np.diagonal(M))
-    condition = np.linalg.cond(scale[:, np.newaxis] * M * scale)
-    if condition > 1e12:
+    scaled = scale[:, np.newaxis] * M * scale
+    try:
+        inverse = np.linalg.inv(scaled)
+    except np.linalg.LinAlgError:
+        inverse = np.full_like(M, np.inf)
+    condition = np.abs(scaled).sum(axis=1).max() * np.abs(inverse).sum(axis=1).max()
+    if not condition <= 1e12:
         raise InputError(
             f"M: found a mass matrix of condition {condition:.1e}; expected below 1e12 (masses and "
             "inertias of very different size: check their units)"
         )
-    return np.asarray(np.linalg.inv(M), dtype=float)
+    return np.asarray(scale[:, np.newaxis] * inverse * scale, dtype=float)
 
 
 def _inverse_of_dampers(C: Array) -> Array:
