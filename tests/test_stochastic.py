@@ -638,3 +638,9 @@ def test_a_measured_spectrum_lies_on_welchs_lines_and_names_its_band():
 def test_a_track_too_short_for_a_spectrum_is_refused():
     with pytest.raises(InputError, match="no spectrum"):
         measured_spectrum(Track(0.0, 0.25, np.arange(9.0), "stub"))
+
+
+@pytest.mark.parametrize("speed", [1e-300, 1e-4])
+def test_a_speed_too_low_to_integrate_is_refused(speed):
+    with pytest.raises(InputError, match="speed"):
+        stochastic_ride(paper_coach(1), speed, spectrum("erri_low"))

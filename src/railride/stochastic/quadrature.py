@@ -22,11 +22,13 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from railride.errors import InputError
 from railride.numeric import Array
 
 GAUSS_POINTS = 12
 REACH = 1.5  # longest panel, in distances from it to the nearest pole
 TINY = 1e-12  # of the highest frequency: what lies so close to a pole on the axis is not resolved
+MOST_PERIODS = 1e6  # of the integrand over the band: a speed of 0.006 km/h for a coach
 SHARP = 1e-2  # of the longest panel: poles that are closer to the axis
 _CAUTION = 8.0  # factor on the estimated error
 _TAIL = 3  # coefficients that tell how fast they decay: even and odd ones are not alike
@@ -45,7 +47,17 @@ def graded_panels(ends: Sequence[float], poles: NDArray[np.complex128], period: 
     -------
     array : ascending edges; every panel is at most :data:`REACH` times as long as it is away from
         the nearest pole.
+
+    Raises
+    ------
+    InputError : an integrand that oscillates too often over the band to be integrated.
     """
+    if not (ends[-1] - ends[0]) / period <= MOST_PERIODS:
+        raise InputError(
+            f"speed: found one so low that the wheelsets' delays of {1 / period:.3g} s turn the "
+            f"response {(ends[-1] - ends[0]) / period:.1e} times over the band; expected at most "
+            f"{MOST_PERIODS:.0e} (a higher speed)"
+        )
     tiny = TINY * ends[-1]
     marks = np.sort(np.concatenate([ends, *_around_sharp(poles, ends, period, tiny)]))
     marks = np.concatenate([marks[:-1][np.diff(marks) > tiny / 2], marks[-1:]])
