@@ -24,14 +24,12 @@ from railride.frequency import check_ascending, check_frequency, wheelset_delays
 from railride.numeric import Array
 from railride.spectra import Spectrum, check_speed, temporal
 from railride.stochastic.process import (
-    BAND_HZ,
     PLAIN,
     Gain,
     Process,
-    covered_band,
+    panel_edges,
     weighted,
 )
-from railride.stochastic.quadrature import graded_panels
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -133,17 +131,7 @@ def _process(
     """The outputs of a loop as stationary processes over 0.05-80 Hz."""
     check_speed(speed)
     form, k = triangular_form(system), len(model.linear.inputs)
-    low, high = covered_band(spectrum, speed, BAND_HZ)
-    marks = speed * np.asarray(spectrum.breakpoints) / (2 * np.pi)
     delays = wheelset_delays(model, speed)
-    poles = np.concatenate([
-        np.diagonal(form.T) / (2j * np.pi),
-        speed * np.asarray(spectrum.poles, dtype=complex) / (2 * np.pi),
-        *(gain.poles for gain in gains),
-    ])  # fmt: skip
-    edges = graded_panels(
-        [low, *marks[(marks > low) & (marks < high)], high], poles, 1 / float(delays.max())
-    )
     return Process(
         form,
         rows=((0, form.left),),
@@ -152,7 +140,7 @@ def _process(
         delays=delays,
         speed=speed,
         spectrum=spectrum,
-        edges=edges,
+        edges=panel_edges(form, delays, speed, spectrum, gains),
         gains=gains,
     )
 

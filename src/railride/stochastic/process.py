@@ -180,6 +180,37 @@ def _refuse_lines(undamped: Array, in_line: Array, mean_square: Array) -> None:
         )
 
 
+def panel_edges(
+    form: Triangular,
+    delays: Array,
+    speed: float,
+    spectrum: Spectrum,
+    gains: Sequence[Gain],
+    band: tuple[float, float] = BAND_HZ,
+    ends: Sequence[float] = (),
+) -> Array:
+    """Edges of the panels that suit a system, its track and its weightings over a band, Hz.
+
+    They shrink towards the poles of all three, end where the spectrum breaks and at ``ends``, and
+    follow the oscillation that the wheelsets' ``delays``, s, make.
+
+    Raises
+    ------
+    InputError : a spectrum with nothing in the band; a speed too low to integrate.
+    """
+    low, high = covered_band(spectrum, speed, band)
+    poles = np.concatenate([
+        np.diagonal(form.T) / (2j * np.pi),
+        speed * np.asarray(spectrum.poles, dtype=complex) / (2 * np.pi),
+        *(gain.poles for gain in gains),
+    ])  # fmt: skip
+    poles = poles[poles.real >= 0]  # the others are their mirror images in the imaginary axis
+    marks = np.concatenate([speed * np.asarray(spectrum.breakpoints) / (2 * np.pi), ends])
+    marks = np.unique(marks[(marks > low) & (marks < high)])
+    period = 1 / max(float(delays.max() - delays.min()), 1 / high)
+    return graded_panels([low, *marks, high], poles, period)
+
+
 def process(
     m: Matrices,
     rows: Mapping[str, Array],
@@ -205,18 +236,8 @@ def process(
     """
     check_speed(speed)
     form = triangular(m)
-    low, high = covered_band(spectrum, speed, band)
     delays = (places[0] - np.asarray(places, dtype=float)) / speed
-    poles = np.concatenate([
-        np.diagonal(form.T) / (2j * np.pi),
-        speed * np.asarray(spectrum.poles, dtype=complex) / (2 * np.pi),
-        *(gain.poles for gain in gains),
-    ])  # fmt: skip
-    poles = poles[poles.real >= 0]  # the others are their mirror images in the imaginary axis
-    marks = np.concatenate([speed * np.asarray(spectrum.breakpoints) / (2 * np.pi), ends])
-    marks = np.unique(marks[(marks > low) & (marks < high)])
-    period = 1 / max(float(delays.max() - delays.min()), 1 / high)
-    edges = graded_panels([low, *marks, high], poles, period)
+    edges = panel_edges(form, delays, speed, spectrum, gains, band, ends)
     return Process(
         form,
         tuple((p, rows[k] @ form.left) for p, k in enumerate("dva") if rows[k].any()),
