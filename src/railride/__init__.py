@@ -42,7 +42,8 @@ _WHERE = {
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),
     "plots": ("plot_acceleration", "plot_bode", "plot_track", "plot_modes", "plot_ride",
-              "animate_mode", "plot_root_locus", "plot_damping", "plot_comfort_along",
+              "animate_mode", "plot_root_locus", "plot_damping", "plot_comfort",
+              "plot_comfort_along",
               "plot_comfort_map", "plot_comfort_over_speed"),
     "errors": ("InputError",),
 }  # fmt: skip

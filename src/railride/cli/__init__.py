@@ -9,6 +9,7 @@ import typer
 
 from railride.cli.bode import bode
 from railride.cli.derive import derive
+from railride.cli.map import comfort_map
 from railride.cli.modes import modes
 from railride.cli.ride import ride
 from railride.cli.track import track
@@ -22,8 +23,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (bode, derive, modes, ride, track):
-    app.command()(command)
+for name, command in (("bode", bode), ("derive", derive), ("map", comfort_map), ("modes", modes),
+                      ("ride", ride), ("track", track)):  # fmt: skip
+    app.command(name)(command)
 
 
 def _version(wanted: bool) -> None:

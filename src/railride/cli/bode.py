@@ -100,7 +100,7 @@ def bode(
     f = _frequencies(given, frequencies, {"--from": lowest, "--to": highest, "--points": points})
     output.check_output(given.faults, "--output", to)
     output.check_output(given.faults, "--plot", plot)
-    _check_picture(given, plot)
+    output.check_picture(given.faults, "--plot", plot)
     given.separate({"--output": to, "--plot": plot}, {"--vehicle": vehicle})
     with working("responding"):
         model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
@@ -132,30 +132,12 @@ def _frequencies(given: Arguments, listed: str | None, band: dict[str, str | Non
                 given.faults.add("--frequencies", f"{values[k]:g} Hz after {values[k - 1]:g} Hz",
                                  "them in ascending order, each once")  # fmt: skip
         return values
-    texts = {option: default if band[option] is None else band[option]
-             for option, default in BAND.items()}  # fmt: skip
-    low, high = (given.positive(option, texts[option], "Hz") for option in ("--from", "--to"))
-    count = given.whole("--points", texts["--points"], 2, MOST_POINTS)
-    if None not in (low, high) and low >= high:
-        given.faults.add("--from", f"{low:g} Hz, and {high:g} Hz for --to",
-                         "a lower frequency than that of --to")  # fmt: skip
+    low, high, count = given.range_of(band, BAND, "Hz", MOST_POINTS)
     if given.faults.found:
         return None
     import numpy as np
 
     return np.geomspace(low, high, count)
-
-
-def _check_picture(given: Arguments, plot: str | None) -> None:
-    """Note a file whose suffix asks for no kind of picture that can be drawn."""
-    if plot is None:
-        return
-    from pathlib import Path
-
-    suffix = Path(plot).suffix.lower()
-    if suffix not in {".png", ".pdf", ".svg"}:
-        given.faults.add(f"--plot {plot!r}", f"the suffix {suffix!r}" if suffix else "no suffix",
-                         "one of .png, .pdf, .svg", "it says which kind to draw")  # fmt: skip
 
 
 def _rows(found: Sequence[BodeResponse]) -> list[dict[str, Any]]:

@@ -78,7 +78,8 @@ def modes(
     given.choice("--format", form, FORMATS)
     for option, path in (("--output", to), ("--plot", plot), ("--animate", animate)):
         output.check_output(given.faults, option, path)
-    _check_pictures(given, plot, animate)
+    output.check_picture(given.faults, "--plot", plot)
+    output.check_picture(given.faults, "--animate", animate, (".gif",))
     given.separate({"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": vehicle})
     _check_together(given, vary, {"--from": first, "--to": last, "--points": points,
                                   "--log": log or None}, animate, plot, mode)  # fmt: skip
@@ -96,19 +97,6 @@ def modes(
     for path in (plot, animate):
         if path is not None:
             typer.echo(f"drawn: {path}", err=True)
-
-
-def _check_pictures(given: Arguments, plot: str | None, animate: str | None) -> None:
-    """Note files whose names do not say that they are pictures, or animations."""
-    from pathlib import Path
-
-    kinds = (("--plot", plot, (".png", ".pdf", ".svg")), ("--animate", animate, (".gif",)))
-    for option, path, suffixes in kinds:
-        suffix = "" if path is None else Path(path).suffix
-        if path is not None and suffix.lower() not in suffixes:
-            given.faults.add(f"{option} {path!r}", f"the suffix {suffix!r}" if suffix else
-                             "no suffix", f"{'one of ' if suffixes[1:] else ''}"
-                             f"{', '.join(suffixes)}", "it says which kind to draw")  # fmt: skip
 
 
 def _check_together(

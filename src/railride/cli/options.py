@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,6 +13,8 @@ from railride.errors import Faults, InputError
 
 if TYPE_CHECKING:
     from railride.parameters import Vehicle
+    from railride.spectra import Spectrum
+    from railride.track import Track
     from railride.vehicle import VehicleModel
 
 BODIES = ("rigid", "segments")
@@ -20,7 +22,7 @@ FORMATS = ("table", "json", "csv")
 MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
 LARGEST_SEED = 2**32 - 1
 
-BODY, RESULT = "The vehicle and its body", "The result"
+TRACK, BODY, RESULT = "The track", "The vehicle and its body", "The result"
 
 VehicleOption = Annotated[
     str, typer.Option("--vehicle", metavar="NAME|FILE", rich_help_panel=BODY,
@@ -54,6 +56,15 @@ FormatOption = Annotated[
 OutputOption = Annotated[
     str | None, typer.Option("--output", metavar="FILE", rich_help_panel=RESULT,
                              help="Write the result to this file instead.")]  # fmt: skip
+
+
+ExtrapolateOption = Annotated[
+    bool, typer.Option("--extrapolate", rich_help_panel=TRACK,
+                       help="Continue a spectrum beyond the band it was stated for.")]  # fmt: skip
+TrackOption = Annotated[
+    str, typer.Option("--track", metavar="NAME|FILE", rich_help_panel=TRACK,
+                      help="A track spectrum by name, or a file with distance_m, level_m.")
+]  # fmt: skip
 
 
 class Arguments:
@@ -96,6 +107,20 @@ class Arguments:
         self.faults.add(option, repr(text), f"a whole number from {least} to {most}",
                         f"such as {option} {max(least, 4)}")  # fmt: skip
         return None
+
+    def range_of(
+        self, texts: Mapping[str, str | None], defaults: Mapping[str, str], unit: str, most: int
+    ) -> tuple[Any, Any, Any]:
+        """From, to (SI) and how many, of the options --from, --to and --points."""
+        filled = {
+            o: str(default if texts[o] is None else texts[o]) for o, default in defaults.items()
+        }
+        low, high = (self.positive(option, filled[option], unit) for option in ("--from", "--to"))
+        if None not in (low, high) and low >= high:
+            first, last = (f"{float(t):g} {unit}" if re.fullmatch(r"[-+.e0-9]+", t) else repr(t)
+                           for t in (filled["--from"], filled["--to"]))  # fmt: skip
+            self.faults.add("--from", f"{first}, and {last} for --to", "a value below that of --to")
+        return low, high, self.whole("--points", filled["--points"], 2, most)
 
     def choice(self, option: str, text: str, choices: Sequence[str]) -> str:
         """One of ``choices``."""
@@ -159,6 +184,15 @@ def build_model(
 
     return derive_vehicle(found, 1 if body == "rigid" else N, bending_frequency=frequency,
                           joint_stiffness=stiffness, bending_damping=damping)  # fmt: skip
+
+
+def chosen_track(track: str, extrapolate: bool) -> Spectrum | Track:
+    """The track by its name or file; a spectrum continued beyond its band where that is asked."""
+    from railride.rides import load_track
+    from railride.spectra import Spectrum
+
+    source = load_track(track)
+    return source.extrapolated() if extrapolate and isinstance(source, Spectrum) else source
 
 
 def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:

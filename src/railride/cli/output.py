@@ -22,6 +22,7 @@ from railride.errors import Faults, InputError
 
 P = ParamSpec("P")
 
+PICTURES = (".png", ".pdf", ".svg")
 INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
 _TOO_MUCH = (
     "railride: found too little memory for what was asked; expected it to fit (a shorter track, a "
@@ -84,6 +85,17 @@ def check_output(faults: Faults, option: str, path: str | None) -> None:
                        "choose another folder")  # fmt: skip
     except (OSError, ValueError, RuntimeError) as error:  # too long, a zero byte, links in a circle
         faults.add(where, _reason(error), "the name of a file", "choose another name")
+
+
+def check_picture(
+    faults: Faults, option: str, path: str | None, suffixes: Sequence[str] = PICTURES
+) -> None:
+    """Note a file whose suffix asks for no kind of picture that can be drawn."""
+    suffix = "" if path is None else Path(path).suffix
+    if path is not None and suffix.lower() not in suffixes:
+        one_of = "one of " if len(suffixes) > 1 else ""
+        faults.add(f"{option} {path!r}", f"the suffix {suffix!r}" if suffix else "no suffix",
+                   one_of + ", ".join(suffixes), "it says which kind to draw")  # fmt: skip
 
 
 def check_folder(faults: Faults, option: str, path: str | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -11,17 +12,13 @@ from railride.cli.options import FORMATS, Arguments, build_model, kmh
 from railride.cli.progress import working
 
 if TYPE_CHECKING:
+    from railride.cli.exact import Detail
     from railride.rides import Case, RideResult
     from railride.spectra import Spectrum
     from railride.track import Track
     from railride.vehicle import VehicleModel
 
 RIDE = "The ride"
-
-TrackOption = Annotated[
-    str, typer.Option("--track", metavar="NAME|FILE", rich_help_panel=RIDE,
-                      help="A track spectrum by name, or a CSV file with distance_m, level_m.")
-]  # fmt: skip
 
 
 @output.exits_cleanly
@@ -34,7 +31,7 @@ def ride(
             help="Speed in km/h; may be repeated. Default the paper's 145 and 200.",
         ),
     ] = None,
-    track: TrackOption = "erri_low",
+    track: options.TrackOption = "erri_low",
     length: Annotated[
         str | None,
         typer.Option(
@@ -74,6 +71,24 @@ def ride(
             "the wheelset's mass is known) wheel load: exact, from the spectrum.",
         ),
     ] = False,
+    bands: Annotated[
+        bool,
+        typer.Option(
+            "--bands",
+            rich_help_panel=RIDE,
+            help="Add the third-octave values of the floor's acceleration: exact, from the "
+            "spectrum.",
+        ),
+    ] = False,
+    shares: Annotated[
+        bool,
+        typer.Option(
+            "--shares",
+            rich_help_panel=RIDE,
+            help="Add the share of every mode in the weighted mean square: exact, from the "
+            "spectrum.",
+        ),
+    ] = False,
     weighting: Annotated[
         str,
         typer.Option(
@@ -82,14 +97,7 @@ def ride(
             help="Frequency weighting: Wk, or Wk_paper for the paper's Eq (6).",
         ),
     ] = "Wk",
-    extrapolate: Annotated[
-        bool,
-        typer.Option(
-            "--extrapolate",
-            rich_help_panel=RIDE,
-            help="Continue a spectrum beyond the band it was stated for.",
-        ),
-    ] = False,
+    extrapolate: options.ExtrapolateOption = False,
     plots: Annotated[
         str | None,
         typer.Option(
@@ -113,6 +121,8 @@ def ride(
     Example:  railride ride --speed 145 --speed 200 --at 0 --plots plots
     """
     given = Arguments()
+    asked = [name for name, wanted in (("travel", travel), ("bands", bands), ("shares", shares))
+             if wanted]  # fmt: skip
     given.choice("--format", form, FORMATS)
     given.choice("--floor", floor, ("smooth", "polygon"))
     speeds = [given.positive("--speed", text, "km/h") for text in speed or ("145", "200")]
@@ -129,25 +139,26 @@ def ride(
                             bending_damping)  # fmt: skip
         from railride import rides
 
-        source = rides.load_track(track)
+        source = options.chosen_track(track, extrapolate)
         idle = _idle(source, spectral, {"--length": length, "--seed": seed}, extrapolate,
                      travel)  # fmt: skip
         found = rides.ride(
-            model, source if not extrapolate else _extrapolated(source), speeds, at=places,
+            model, source, speeds, at=places,
             length=1000.0 if rated is None else rated, seed=1 if number is None else number,
             floor=floor, weight=weighting, spectral=spectral, progress=advance,
         )  # fmt: skip
-        felt = _travel(model, source, extrapolate, speeds, rated) if travel else []
+        details = _details(asked, model, source, speeds, places, rated, floor, weighting)
         drawn = None if plots is None else _draw(found, plots)
     remarks = [*found.remarks, *idle]
-    if travel and form == "csv":
-        remarks.append("--travel changes nothing in csv, which holds one table: take json or table")
+    if form == "csv":
+        remarks += [f"--{name} changes nothing in csv, which holds one table: take json or table"
+                    for name in asked]  # fmt: skip
     text = output.result(
         form,
         {"track": found.track, "cases": [_row(case) for case in found.cases],
-         **({"outputs": felt} if travel else {})},
+         **{detail.key: detail.rows for detail in details}},
         [_flat(case) for case in found.cases],
-        lambda: _table(found) + ("\n" + _travel_table(felt) if travel else ""),
+        lambda: "\n".join([_table(found), *(detail.table for detail in details)]),
         remarks,
     )  # fmt: skip
     output.write(text, to)
@@ -174,55 +185,22 @@ def _idle(
     return remarks
 
 
-def _travel(
-    model: VehicleModel, source: Spectrum | Track, extrapolate: bool, speeds: list[float],
-    length: float | None,
-) -> list[dict[str, Any]]:  # fmt: skip
-    """R.m.s. and expected peak of every deflection and wheel load at every speed."""
+def _details(asked: Sequence[str], model: VehicleModel, source: Spectrum | Track,
+             speeds: list[float], places: list[float], length: float | None, floor: str,
+             weighting: str) -> list[Detail]:  # fmt: skip
+    """What else was asked for, from the track's spectrum; nothing where it has none."""
+    from railride import weightings
+    from railride.cli import exact
     from railride.rides import exact_spectrum
-    from railride.stochastic import extremes
 
-    spectrum, _ = exact_spectrum(_extrapolated(source) if extrapolate else source)
+    if not asked:
+        return []
+    spectrum, _ = exact_spectrum(source)
     if spectrum is None:
         return []
-    distance = 1000.0 if length is None else length
-    return [
-        {
-            "speed_kmh": kmh(speed),
-            "output": one.name,
-            "unit": one.unit,
-            "rms": one.rms,
-            "expected_peak": one.peak,
-            "zero_upcrossing_hz": one.crossings,
-            "low_pass_hz": one.low_pass,
-            "distance_m": distance,
-        }
-        for speed in speeds
-        for one in extremes(model, speed, spectrum, distance=distance)
-    ]
-
-
-def _travel_table(felt: list[dict[str, Any]]) -> str:
-    """Suspension travel in mm, wheel loads in kN."""
-    larger = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}
-    rows = []
-    for one in felt:
-        unit, times = larger.get(one["unit"], (one["unit"], 1.0))
-        peak = one["expected_peak"]
-        rows.append((one["speed_kmh"], one["output"], unit, times * one["rms"],
-                     None if peak is None else times * peak, one["zero_upcrossing_hz"],
-                     one["low_pass_hz"]))  # fmt: skip
-    columns = [("speed\n[km/h]", ".6g"), ("output", ""), ("unit", ""), ("r.m.s.", ".3f"),
-               ("expected peak\nto one side", ".3f"), ("zero up-\ncrossings [1/s]", ".2f"),
-               ("low-pass\n[Hz]", ".4g")]  # fmt: skip
-    title = f"Suspension travel and wheel load over {felt[0]['distance_m']:g} m, exact"
-    return output.table_text(title, columns, rows)
-
-
-def _extrapolated(source: Spectrum | Track) -> Spectrum | Track:
-    from railride.spectra import Spectrum
-
-    return source.extrapolated() if isinstance(source, Spectrum) else source
+    given = exact.Asked(model, spectrum, speeds, places, floor, weightings.weighting(weighting),
+                        1000.0 if length is None else length)  # fmt: skip
+    return [getattr(exact, name)(given) for name in asked]
 
 
 def _draw(found: RideResult, folder: str) -> str:

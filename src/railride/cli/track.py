@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from railride.spectra import Spectrum
     from railride.track import Track
 
-DRAWN = (".png", ".pdf", ".svg")
 MAKE = "A synthetic track"
 
 
@@ -41,14 +40,7 @@ def track(
     seed: Annotated[
         str | None, typer.Option(metavar="INT", rich_help_panel=MAKE, help="Default 1.")
     ] = None,
-    extrapolate: Annotated[
-        bool,
-        typer.Option(
-            "--extrapolate",
-            rich_help_panel=MAKE,
-            help="Continue the spectrum beyond the band it was stated for.",
-        ),
-    ] = False,
+    extrapolate: options.ExtrapolateOption = False,
     write: Annotated[
         str | None,
         typer.Option(
@@ -87,8 +79,7 @@ def track(
     for option, path in written.items():
         output.check_output(given.faults, option, path)
     given.separate(written, {"the track": file})
-    if plot is not None and not plot.lower().endswith(DRAWN):
-        given.faults.add("--plot", repr(plot), f"a name that ends in {', '.join(DRAWN)}")
+    output.check_picture(given.faults, "--plot", plot)
     given.check()
     source, found = _read(file) if file is not None else _make(
         spectrum or "erri_low", extrapolate, metres or 1000.0, step_m or 0.25,

@@ -13,6 +13,7 @@ from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
 from railride.plots.stochastic import (
+    plot_comfort,
     plot_comfort_along,
     plot_comfort_map,
     plot_comfort_over_speed,
@@ -23,6 +24,7 @@ __all__ = [
     "animate_mode",
     "plot_acceleration",
     "plot_bode",
+    "plot_comfort",
     "plot_comfort_along",
     "plot_comfort_map",
     "plot_comfort_over_speed",

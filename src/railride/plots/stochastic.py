@@ -16,6 +16,7 @@ from railride.spectra import FloatArray
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 SPEED, PLACE = "speed [km/h]", "position [m]"
 VALUES = {
@@ -81,6 +82,27 @@ def plot_comfort_map(
     ax.set_ylabel("position on the floor,\nforward of the middle [m]")
     ax.spines[["top", "right"]].set_visible(False)
     return ax
+
+
+def plot_comfort(table: pd.DataFrame, *, value: str = "a_wrms [m/s^2]") -> Figure:
+    """Draw a comfort value as suits the table: curves where there are few, else the map.
+
+    Up to eight speeds give curves along the car, else up to eight points curves over speed.
+
+    table : of ``comfort_map``. value : the column to draw.
+
+    Raises InputError for a table without such a column.
+    """
+    _check(table, value)
+    figure = canvas.new_figure(7.5, 4.2)
+    ax = figure.add_subplot()
+    if table[SPEED].nunique() <= MOST_LINES and table[PLACE].nunique() > 1:
+        plot_comfort_along(table, value=value, ax=ax)
+    elif table[PLACE].nunique() <= MOST_LINES:
+        plot_comfort_over_speed(table, value=value, ax=ax)
+    else:
+        plot_comfort_map(table, value=value, ax=ax)
+    return figure
 
 
 def _lines(
