@@ -6,6 +6,7 @@ import csv
 import io
 import json
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,7 +14,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 from vehicles import paper_coach, random_model
 
 from railride.bodes import bode, geometric_zeros
-from railride.cli import main
 from railride.errors import InputError
 from railride.frequency import track_response
 from railride.plots import plot_bode, save
@@ -188,14 +188,8 @@ def test_pictures_of_nothing_or_of_two_units_are_refused():
 
 
 @pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        with pytest.raises(SystemExit) as stopped:
-            main(["bode", *map(str, arguments)])
-        out, err = capsys.readouterr()
-        return stopped.value.code or 0, out, err
-
-    return call
+def run(run):
+    return partial(run, "bode")
 
 
 def test_json_as_promised(run):

@@ -19,23 +19,10 @@ import pytest
 import sympy as sp
 
 import railride.cli
-from railride.cli import main, output, progress
+from railride.cli import output, progress
 
 ROOT = Path(__file__).resolve().parents[1]
 HEAVY = ("sympy", "numpy", "scipy", "pandas", "matplotlib", "control", "pint")
-
-
-@pytest.fixture
-def run(capsys):
-    """Run a command in this process: exit code, standard output, standard error."""
-
-    def call(*arguments):
-        with pytest.raises(SystemExit) as stopped:
-            main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return stopped.value.code or 0, out, err
-
-    return call
 
 
 @pytest.fixture

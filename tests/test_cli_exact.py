@@ -9,22 +9,8 @@ import json
 import pytest
 
 import railride as rr
-from railride.cli import main
 
 COACH = ("--segments", "2", "--floor", "polygon")
-
-
-@pytest.fixture
-def run(capsys):
-    """Run a command in this process: exit code, standard output, standard error."""
-
-    def call(*arguments):
-        with pytest.raises(SystemExit) as stopped:
-            main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return stopped.value.code or 0, out, err
-
-    return call
 
 
 def document(run, *arguments):

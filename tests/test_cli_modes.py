@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,22 +13,13 @@ from PIL import Image
 from vehicles import paper_coach
 
 from railride import plots
-from railride.cli import main
 from railride.loci import mode_locus
 from railride.modal import modes
 
 
 @pytest.fixture
-def run(capsys):
-    """Run ``railride modes`` in this process: exit code, standard output, standard error."""
-
-    def call(*arguments):
-        with pytest.raises(SystemExit) as stopped:
-            main(["modes", "--segments", "2", *map(str, arguments)])
-        out, err = capsys.readouterr()
-        return stopped.value.code or 0, out, err
-
-    return call
+def run(run):
+    return partial(run, "modes", "--segments", "2")
 
 
 def size(path):

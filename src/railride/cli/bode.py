@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, build_model, kmh
+from railride.cli.options import FORMATS, Arguments, kmh
 from railride.cli.progress import working
+from railride.cli.vehicle import VehicleChoice, takes_vehicle
 
 if TYPE_CHECKING:
     from railride.bodes import BodeResponse
@@ -22,7 +23,9 @@ PROMINENT = 1.5  # how far a peak stands out from what surrounds it, as a ratio
 
 
 @output.exits_cleanly
+@takes_vehicle
 def bode(
+    choice: VehicleChoice,
     speed: Annotated[
         list[str] | None,
         typer.Option(
@@ -78,12 +81,6 @@ def bode(
             help="Draw magnitude and phase into this PNG, PDF or SVG file.",
         ),
     ] = None,
-    vehicle: options.VehicleOption = "cati2024",
-    segments: options.SegmentsOption = None,
-    body: options.BodyOption = None,
-    bending_frequency: options.FrequencyOption = None,
-    joint_stiffness: options.StiffnessOption = None,
-    bending_damping: options.DampingOption = None,
     floor: options.FloorOption = "smooth",
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
@@ -101,10 +98,9 @@ def bode(
     output.check_output(given.faults, "--output", to)
     output.check_output(given.faults, "--plot", plot)
     output.check_picture(given.faults, "--plot", plot)
-    given.separate({"--output": to, "--plot": plot}, {"--vehicle": vehicle})
+    given.separate({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle})
     with working("responding"):
-        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                            bending_damping)  # fmt: skip
+        model = choice.model(given)
         from railride import bodes
 
         found = bodes.bode(model, speeds, f, at=places, floor=floor)

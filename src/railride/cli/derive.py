@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,8 +10,9 @@ import typer
 
 from railride.cli import options, output
 from railride.cli.modes import as_json, as_table
-from railride.cli.options import Arguments, build_model
+from railride.cli.options import Arguments
 from railride.cli.progress import working
+from railride.cli.vehicle import VehicleChoice, takes_vehicle
 
 if TYPE_CHECKING:
     from railride.linear import LinearModel
@@ -22,13 +24,9 @@ SYMBOLIC = ("M", "C", "K", "K_w", "C_w")
 
 
 @output.exits_cleanly
+@takes_vehicle
 def derive(
-    vehicle: options.VehicleOption = "cati2024",
-    segments: options.SegmentsOption = None,
-    body: options.BodyOption = None,
-    bending_frequency: options.FrequencyOption = None,
-    joint_stiffness: options.StiffnessOption = None,
-    bending_damping: options.DampingOption = None,
+    choice: VehicleChoice,
     system: Annotated[
         str,
         typer.Option(
@@ -68,21 +66,12 @@ def derive(
         given.faults.add("--nonlinear", "--format csv with it", "a format that holds equations: "
                          "table, json, markdown or latex")  # fmt: skip
     output.check_output(given.faults, "--output", to)
-    given.separate({"--output": to}, {"--vehicle": vehicle})
+    given.separate({"--output": to}, {"--vehicle": choice.vehicle})
     if system in SYSTEMS[1:]:
-        needless = {
-            "--vehicle": None if vehicle == "cati2024" else vehicle,
-            "--segments": segments,
-            "--body": body,
-            "--bending-frequency": bending_frequency,
-            "--joint-stiffness": joint_stiffness,
-            "--bending-damping": bending_damping,
-        }
-        _write_half_body(given, system, form, nonlinear, needless, to)
+        _write_half_body(given, system, form, nonlinear, choice.given(), to)
         return
     with working("deriving"):
-        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                            bending_damping)  # fmt: skip
+        model = choice.model(given)
         remarks = [*model.vehicle.remarks, *model.remarks]
         text = _as_text(model, form, nonlinear, remarks)
     output.write(text, to)
@@ -90,15 +79,14 @@ def derive(
 
 
 def _write_half_body(
-    given: Arguments, system: str, form: str, nonlinear: bool, needless: dict[str, str | None],
+    given: Arguments, system: str, form: str, nonlinear: bool, needless: Sequence[str],
     to: str | None,
 ) -> None:  # fmt: skip
     """The paper's two halves, which have symbols only and no vehicle."""
     if form not in ("markdown", "latex"):
         given.faults.add(f"--system {system}", f"--format {form}", "markdown or latex")
-    for option, value in needless.items():
-        if value is not None:
-            given.conflict(option, f"--system {system}")
+    for option in needless:
+        given.conflict(option, f"--system {system}")
     if nonlinear:
         given.faults.add("--nonlinear", f"--system {system} with it", "one of the two",
                          "its document has the nonlinear equations as it is")  # fmt: skip

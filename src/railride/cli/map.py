@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, build_model
+from railride.cli.options import FORMATS, Arguments
 from railride.cli.progress import working
+from railride.cli.vehicle import VehicleChoice, takes_vehicle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -22,7 +23,9 @@ COLUMNS = {"speed_kmh": "speed [km/h]", "position_m": "position [m]", "a_rms": "
 
 
 @output.exits_cleanly
+@takes_vehicle
 def comfort_map(
+    choice: VehicleChoice,
     speed: Annotated[
         list[str] | None,
         typer.Option(
@@ -68,12 +71,6 @@ def comfort_map(
             help="Draw map or curves into this PNG, PDF or SVG file.",
         ),
     ] = None,
-    vehicle: options.VehicleOption = "cati2024",
-    segments: options.SegmentsOption = None,
-    body: options.BodyOption = None,
-    bending_frequency: options.FrequencyOption = None,
-    joint_stiffness: options.StiffnessOption = None,
-    bending_damping: options.DampingOption = None,
     floor: options.FloorOption = "smooth",
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
@@ -90,10 +87,11 @@ def comfort_map(
     output.check_output(given.faults, "--output", to)
     output.check_output(given.faults, "--plot", plot)
     output.check_picture(given.faults, "--plot", plot)
-    given.separate({"--output": to, "--plot": plot}, {"--vehicle": vehicle, "--track": track})
+    given.separate(
+        {"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track}
+    )
     with working("mapping") as advance:
-        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                            bending_damping)  # fmt: skip
+        model = choice.model(given)
         from railride import rides, stochastic, weightings
 
         source, said = rides.exact_spectrum(options.chosen_track(track, extrapolate))

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import loci, options, output
-from railride.cli.options import FORMATS, Arguments, build_model
+from railride.cli.options import FORMATS, Arguments
 from railride.cli.progress import working
+from railride.cli.vehicle import VehicleChoice, takes_vehicle
 from railride.errors import InputError
 
 if TYPE_CHECKING:
@@ -50,7 +51,9 @@ ModeOption = Annotated[
 
 
 @output.exits_cleanly
+@takes_vehicle
 def modes(
+    choice: VehicleChoice,
     vary: VaryOption = None,
     first: FromOption = None,
     last: ToOption = None,
@@ -59,12 +62,6 @@ def modes(
     plot: PlotOption = None,
     animate: AnimateOption = None,
     mode: ModeOption = None,
-    vehicle: options.VehicleOption = "cati2024",
-    segments: options.SegmentsOption = None,
-    body: options.BodyOption = None,
-    bending_frequency: options.FrequencyOption = None,
-    joint_stiffness: options.StiffnessOption = None,
-    bending_damping: options.DampingOption = None,
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
 ) -> None:
@@ -80,13 +77,14 @@ def modes(
         output.check_output(given.faults, option, path)
     output.check_picture(given.faults, "--plot", plot)
     output.check_picture(given.faults, "--animate", animate, (".gif",))
-    given.separate({"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": vehicle})
+    given.separate(
+        {"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": choice.vehicle}
+    )
     _check_together(given, vary, {"--from": first, "--to": last, "--points": points,
                                   "--log": log or None}, animate, plot, mode)  # fmt: skip
     count = given.whole("--points", points or "60", 2, MOST_POINTS)
     with working("deriving"):
-        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                            bending_damping)  # fmt: skip
+        model = choice.model(given)
         if vary is not None:
             varied = loci.values(model, vary, first, last, count, log=log)
             text = loci.result(model, form, varied, plot)

@@ -9,43 +9,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from railride.errors import Faults, InputError
+from railride.errors import Faults
 
 if TYPE_CHECKING:
-    from railride.parameters import Vehicle
     from railride.spectra import Spectrum
     from railride.track import Track
-    from railride.vehicle import VehicleModel
 
-BODIES = ("rigid", "segments")
 FORMATS = ("table", "json", "csv")
-MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
 LARGEST_SEED = 2**32 - 1
 
 TRACK, BODY, RESULT = "The track", "The vehicle and its body", "The result"
 
-VehicleOption = Annotated[
-    str, typer.Option("--vehicle", metavar="NAME|FILE", rich_help_panel=BODY,
-                      help="A shipped vehicle or a TOML parameter file.")]  # fmt: skip
-SegmentsOption = Annotated[
-    str | None, typer.Option("--segments", metavar="N", rich_help_panel=BODY,
-                             help="Rigid segments of the car body; default 4, or 1 where no "
-                             "bending is known.")]  # fmt: skip
-BodyOption = Annotated[
-    str | None, typer.Option("--body", metavar="|".join(BODIES), rich_help_panel=BODY,
-                             help="The kind of car body.")]  # fmt: skip
-FrequencyOption = Annotated[
-    str | None, typer.Option("--bending-frequency", metavar="HZ", rich_help_panel=BODY,
-                             help="Calibrate the joints to this free-free first bending "
-                             "frequency.")]  # fmt: skip
-StiffnessOption = Annotated[
-    str | None, typer.Option("--joint-stiffness", metavar="VALUE", rich_help_panel=BODY,
-                             help="Joint stiffness in N m/rad, or as '3.7e5 kN*m/rad'.")
-]  # fmt: skip
-DampingOption = Annotated[
-    str | None, typer.Option("--bending-damping", metavar="ZETA", rich_help_panel=BODY,
-                             help="Structural damping ratio of the first bending mode; "
-                             "default the vehicle's.")]  # fmt: skip
 FloorOption = Annotated[
     str, typer.Option("--floor", metavar="smooth|polygon", rich_help_panel=BODY,
                       help="Where the floor is: on the smooth line through the segments, or on "
@@ -149,43 +123,6 @@ class Arguments:
         self.faults.raise_if_any()
 
 
-def build_model(
-    given: Arguments, vehicle: str, segments: str | None, body: str | None,
-    bending_frequency: str | None, joint_stiffness: str | None, bending_damping: str | None,
-) -> VehicleModel:  # fmt: skip
-    """The model that the body options describe.
-
-    Raises
-    ------
-    InputError : faults of the options together with any noted in ``given``; of the vehicle's file.
-    """
-    N = given.whole("--segments", segments, 1, MOST_SEGMENTS)
-    frequency = given.positive("--bending-frequency", bending_frequency, "Hz")
-    stiffness = given.positive("--joint-stiffness", joint_stiffness, "N m/rad")
-    damping = given.number("--bending-damping", bending_damping, "")
-    if body is not None:
-        given.choice("--body", body, BODIES)
-    if body == "rigid" and N is not None and N > 1:
-        given.faults.add("--body rigid", f"--segments {N} with it", "one segment",
-                         "leave one of the two out")  # fmt: skip
-    if damping is not None and not 0 <= damping < 1:
-        given.faults.add("--bending-damping", repr(bending_damping), "a ratio of at least 0 and "
-                         "below 1", 'such as 0.015 or "1.5 %"')  # fmt: skip
-    if bending_frequency is not None and joint_stiffness is not None:
-        given.conflict("--bending-frequency", "--joint-stiffness",
-                       "leave one of the two out: it follows from the other")  # fmt: skip
-    given.check()
-    from railride.parameters import load_vehicle
-
-    found = load_vehicle(vehicle)
-    if frequency is None and stiffness is None:
-        _refuse_unknown_bending(found, N, body)
-    from railride.vehicle import derive_vehicle
-
-    return derive_vehicle(found, 1 if body == "rigid" else N, bending_frequency=frequency,
-                          joint_stiffness=stiffness, bending_damping=damping)  # fmt: skip
-
-
 def chosen_track(track: str, extrapolate: bool) -> Spectrum | Track:
     """The track by its name or file; a spectrum continued beyond its band where that is asked."""
     from railride.rides import load_track
@@ -193,18 +130,6 @@ def chosen_track(track: str, extrapolate: bool) -> Spectrum | Track:
 
     source = load_track(track)
     return source.extrapolated() if extrapolate and isinstance(source, Spectrum) else source
-
-
-def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:
-    """Several segments need a stiffness between them."""
-    known = (found.body.bending_frequency, found.body.joint_stiffness, found.body.bending_stiffness)
-    if any(value is not None for value in known):
-        return
-    if (N or 1) > 1 or (N is None and body == "segments"):
-        asked = f"--segments {N}" if N else "--body segments"
-        raise InputError(f"vehicle {found.name}: found {asked} for a car body whose bending is not "
-                         "known; expected its stiffness (give --bending-frequency or "
-                         "--joint-stiffness, or take one segment)")  # fmt: skip
 
 
 def kmh(speed: float) -> float:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, build_model, kmh
+from railride.cli.options import FORMATS, Arguments, kmh
 from railride.cli.progress import working
+from railride.cli.vehicle import VehicleChoice, takes_vehicle
 
 if TYPE_CHECKING:
     from railride.cli.exact import Detail
@@ -22,7 +23,9 @@ RIDE = "The ride"
 
 
 @output.exits_cleanly
+@takes_vehicle
 def ride(
+    choice: VehicleChoice,
     speed: Annotated[
         list[str] | None,
         typer.Option(
@@ -106,12 +109,6 @@ def ride(
             help="Draw track and accelerations into this folder.",
         ),
     ] = None,
-    vehicle: options.VehicleOption = "cati2024",
-    segments: options.SegmentsOption = None,
-    body: options.BodyOption = None,
-    bending_frequency: options.FrequencyOption = None,
-    joint_stiffness: options.StiffnessOption = None,
-    bending_damping: options.DampingOption = None,
     floor: options.FloorOption = "smooth",
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
@@ -133,10 +130,9 @@ def ride(
         given.conflict("--plots", "--spectral", "leave one of the two out: only a run can be drawn")
     output.check_output(given.faults, "--output", to)
     output.check_folder(given.faults, "--plots", plots)
-    given.separate({"--output": to}, {"--vehicle": vehicle, "--track": track})
+    given.separate({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
     with working("riding") as advance:
-        model = build_model(given, vehicle, segments, body, bending_frequency, joint_stiffness,
-                            bending_damping)  # fmt: skip
+        model = choice.model(given)
         from railride import rides
 
         source = options.chosen_track(track, extrapolate)

@@ -1,0 +1,123 @@
+"""The options of the vehicle and its body, which several commands share as one."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from railride.cli.options import BODY, Arguments
+from railride.errors import InputError
+
+if TYPE_CHECKING:
+    from railride.parameters import Vehicle
+    from railride.vehicle import VehicleModel
+
+BODIES = ("rigid", "segments")
+DEFAULT = "cati2024"
+MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
+
+VehicleOption = Annotated[
+    str, typer.Option("--vehicle", metavar="NAME|FILE", rich_help_panel=BODY,
+                      help="A shipped vehicle or a TOML parameter file.")]  # fmt: skip
+SegmentsOption = Annotated[
+    str | None, typer.Option("--segments", metavar="N", rich_help_panel=BODY,
+                             help="Rigid segments of the car body; default 4, or 1 where no "
+                             "bending is known.")]  # fmt: skip
+BodyOption = Annotated[
+    str | None, typer.Option("--body", metavar="|".join(BODIES), rich_help_panel=BODY,
+                             help="The kind of car body.")]  # fmt: skip
+FrequencyOption = Annotated[
+    str | None, typer.Option("--bending-frequency", metavar="HZ", rich_help_panel=BODY,
+                             help="Calibrate the joints to this free-free first bending "
+                             "frequency.")]  # fmt: skip
+StiffnessOption = Annotated[
+    str | None, typer.Option("--joint-stiffness", metavar="VALUE", rich_help_panel=BODY,
+                             help="Joint stiffness in N m/rad, or as '3.7e5 kN*m/rad'.")
+]  # fmt: skip
+DampingOption = Annotated[
+    str | None, typer.Option("--bending-damping", metavar="ZETA", rich_help_panel=BODY,
+                             help="Structural damping ratio of the first bending mode; "
+                             "default the vehicle's.")]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class VehicleChoice:
+    """Texts of the options that say which vehicle is meant, and how its body is made."""
+
+    vehicle: VehicleOption = DEFAULT
+    segments: SegmentsOption = None
+    body: BodyOption = None
+    bending_frequency: FrequencyOption = None
+    joint_stiffness: StiffnessOption = None
+    bending_damping: DampingOption = None
+
+    def given(self) -> list[str]:
+        """Names of the options that are not left at their defaults."""
+        return [f"--{name.replace('_', '-')}" for name, value in vars(self).items()
+                if value != getattr(type(self), name)]  # fmt: skip
+
+    def model(self, given: Arguments) -> VehicleModel:
+        """The model that the options describe.
+
+        Raises
+        ------
+        InputError : faults of the options together with any noted in ``given``; of the file.
+        """
+        N = given.whole("--segments", self.segments, 1, MOST_SEGMENTS)
+        frequency = given.positive("--bending-frequency", self.bending_frequency, "Hz")
+        stiffness = given.positive("--joint-stiffness", self.joint_stiffness, "N m/rad")
+        damping = given.number("--bending-damping", self.bending_damping, "")
+        if self.body is not None:
+            given.choice("--body", self.body, BODIES)
+        if self.body == "rigid" and N is not None and N > 1:
+            given.faults.add("--body rigid", f"--segments {N} with it", "one segment",
+                             "leave one of the two out")  # fmt: skip
+        if damping is not None and not 0 <= damping < 1:
+            given.faults.add("--bending-damping", repr(self.bending_damping), "a ratio of at "
+                             "least 0 and below 1", 'such as 0.015 or "1.5 %"')  # fmt: skip
+        if self.bending_frequency is not None and self.joint_stiffness is not None:
+            given.conflict("--bending-frequency", "--joint-stiffness",
+                           "leave one of the two out: it follows from the other")  # fmt: skip
+        given.check()
+        from railride.parameters import load_vehicle
+
+        found = load_vehicle(self.vehicle)
+        if frequency is None and stiffness is None:
+            _refuse_unknown_bending(found, N, self.body)
+        from railride.vehicle import derive_vehicle
+
+        return derive_vehicle(found, 1 if self.body == "rigid" else N, bending_frequency=frequency,
+                              joint_stiffness=stiffness, bending_damping=damping)  # fmt: skip
+
+
+def takes_vehicle(command: Callable[..., None]) -> Callable[..., None]:
+    """A command whose argument ``choice`` is made of the vehicle's options, listed last but one."""
+    own, chosen = (inspect.signature(f, eval_str=True) for f in (command, VehicleChoice))
+
+    @functools.wraps(command)
+    def run(**values: Any) -> None:
+        command(choice=VehicleChoice(**{name: values.pop(name) for name in chosen.parameters}),
+                **values)  # fmt: skip
+
+    shown = [p for name, p in own.parameters.items() if name != "choice"]
+    shown[-2:-2] = chosen.parameters.values()
+    setattr(run, "__signature__", own.replace(parameters=shown))  # noqa: B010
+    run.__annotations__ = {p.name: p.annotation for p in shown}
+    return run
+
+
+def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:
+    """Several segments need a stiffness between them."""
+    known = (found.body.bending_frequency, found.body.joint_stiffness, found.body.bending_stiffness)
+    if any(value is not None for value in known):
+        return
+    if (N or 1) > 1 or (N is None and body == "segments"):
+        asked = f"--segments {N}" if N else "--body segments"
+        raise InputError(f"vehicle {found.name}: found {asked} for a car body whose bending is not "
+                         "known; expected its stiffness (give --bending-frequency or "
+                         "--joint-stiffness, or take one segment)")  # fmt: skip
