@@ -61,6 +61,14 @@ def test_speeds_that_are_none(refused, text):
     helps(message, "--speed", "km/h")
 
 
+@pytest.mark.parametrize(("option", "text", "mend"), [
+    ("--speed", "100,200", "--speed 100 --speed 200"),
+    ("--at", "8,75", "a decimal point"),
+])  # fmt: skip
+def test_several_values_in_one_option(refused, option, text, mend):
+    helps(refused("ride", option, text), repr(text), mend)
+
+
 @pytest.mark.parametrize(
     ("command", "option", "text", "expected"),
     [

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("table", "json", "csv")
 LARGEST_SEED = 2**32 - 1
+REPEATED = ("--speed", "--at")  # options that may be given several times
 
 TRACK, BODY, RESULT = "The track", "The vehicle and its body", "The result"
 
@@ -61,7 +62,10 @@ class Arguments:
         try:
             return parse_number_or_quantity(text, unit)
         except QuantityError as error:
-            self.faults.add(option, error.found, error.expected, error.mend)
+            first, comma, other = text.partition(",")
+            mend = (f"a decimal point; or, for several values, {option} {first} {option} {other}"
+                    if comma and option in REPEATED else error.mend)  # fmt: skip
+            self.faults.add(option, error.found, error.expected, mend)
             return None
 
     def positive(self, option: str, text: str | None, unit: str) -> Any:
