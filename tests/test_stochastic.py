@@ -13,6 +13,7 @@ import scipy.signal
 from vehicles import paper_coach, random_model
 
 from railride import plots
+from railride.comfort.third_octaves import band_edges
 from railride.errors import InputError
 from railride.frequency import track_response
 from railride.modal import modes
@@ -29,7 +30,6 @@ from railride.stochastic import (
     third_octaves,
     weighted_rms,
 )
-from railride.stochastic.bands import band_edges
 from railride.stochastic.extremes import low_pass
 from railride.stochastic.quadrature import gauss_points, graded_panels
 from railride.track import Track, synthesise

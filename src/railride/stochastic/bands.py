@@ -1,10 +1,9 @@
 """Third-octave bands of a stationary ride.
 
-Midband frequencies f_n = 10^(n/10) Hz, edges f_n · 10^(±1/20) (base ten); the bands are called by
-their nominal frequencies, 0.1 to 80 Hz. Each value is the integral over its band alone, an ideal
-filter, so that the squares of all add up to the mean square from 0.0891 to 89.1 Hz.
+Each value is the integral over its band alone, an ideal filter, so that the squares of all add up
+to the mean square from 0.0891 to 89.1 Hz.
 
-Source: IEC 61260-1:2014, 5.2 to 5.5 and Annex E (midband, edge and nominal frequencies).
+Source: IEC 61260-1:2014, as :mod:`railride.comfort.third_octaves`.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from railride.numeric import Array
+from railride.comfort.third_octaves import NUMBERS, band_edges, nominal_frequencies
 from railride.spectra import Spectrum, coverage_remark
 from railride.stochastic.process import PLAIN, process, weighted
 from railride.stochastic.ride import floor_in_hand
@@ -24,28 +23,6 @@ from railride.weightings import Weighting, weighting
 
 if TYPE_CHECKING:
     import pandas as pd
-
-NUMBERS = range(-10, 20)  # n of the bands from 0.1 to 80 Hz
-_NOMINAL = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
-
-
-def band_edges() -> Array:
-    """Edges of the third-octave bands, Hz, ascending: one more than there are bands.
-
-    >>> band_edges()[[0, 1, -1]].round(4).tolist()
-    [0.0891, 0.1122, 89.1251]
-    """
-    return np.asarray(10.0 ** ((np.arange(NUMBERS.start, NUMBERS.stop + 1) - 0.5) / 10))
-
-
-def nominal_frequency(n: int) -> float:
-    """What the band of midband frequency 10^(n/10) Hz is called.
-
-    >>> [nominal_frequency(n) for n in (-10, 0, 5, 19)]
-    [0.1, 1.0, 3.15, 80.0]
-    """
-    decade, within = divmod(n, 10)
-    return round(_NOMINAL[within] * 10.0**decade, 6)
 
 
 def third_octaves(
@@ -97,7 +74,7 @@ def third_octaves(
     a, a_w = np.sqrt(found.values @ inside.T.astype(float))
     table = pd.DataFrame({
         "position [m]": np.repeat(np.asarray(at, dtype=float), len(NUMBERS)),
-        "band [Hz]": np.tile([nominal_frequency(n) for n in NUMBERS], len(at)),
+        "band [Hz]": np.tile(nominal_frequencies(), len(at)),
         "midband [Hz]": np.tile(10.0 ** (np.array(NUMBERS) / 10), len(at)),
         "a_rms [m/s^2]": a.ravel(),
         "a_wrms [m/s^2]": a_w.ravel(),
