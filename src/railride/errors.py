@@ -51,3 +51,32 @@ class Faults:
         """Raise all that was found as one :class:`InputError`; nothing if there is nothing."""
         if self.found:
             raise InputError("\n".join(f"{self.source}: {fault}" for fault in self.found))
+
+
+class RowFaults:
+    """Faults of single rows of a file: the first ten in full and the number of the others.
+
+    >>> rows = RowFaults(Faults("ride.csv"))
+    >>> rows.add(17, "z", "'abc'", "a number")
+    >>> rows.close()
+    >>> print(*rows.faults.found)
+    row 17, column 'z': found 'abc'; expected a number
+    """
+
+    shown = 10
+
+    def __init__(self, faults: Faults) -> None:
+        self.faults = faults
+        self.count = 0
+
+    def add(self, row: int, column: str, found: str, expected: str, mend: str = "") -> None:
+        """Note a fault of one cell, or of a row as a whole where ``column`` is empty."""
+        self.count += 1
+        if self.count <= self.shown:
+            where = f"row {row}, column {column!r}" if column else f"row {row}"
+            self.faults.add(where, found, expected, mend)
+
+    def close(self) -> None:
+        """Say how many were left out."""
+        if self.count > self.shown:
+            self.faults.add("other rows", f"{self.count - self.shown} more such faults", "none")
