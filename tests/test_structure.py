@@ -16,7 +16,8 @@ SOURCE = Path(railride.__file__).parent
 
 # From the parts that know nothing of the rest to those that use everything.
 ORDER = """
-errors files units tables toml_tables vehicle_data parameters
+errors files units tables toml_tables quantities body_profile car_body vehicle_data
+record_tables body_tables parameters
 lagrange jets linear halfbody numeric
 plausibility bodies running_gear parameter_values vehicle
 firstorder naming modal loci statespace spectra frequency bodes

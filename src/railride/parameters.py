@@ -11,21 +11,22 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Sequence
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
+from railride.body_profile import BodyProfile, PointMass
+from railride.body_tables import body_lines, read_body
+from railride.car_body import CarBody
 from railride.errors import Fault, Faults, InputError
 from railride.files import data_path, write_text
+from railride.record_tables import note_all_missing, note_missing, read_values, written
 from railride.toml_tables import Table, read_toml, shown, toml_text
 from railride.vehicle_data import (
     Bogie,
-    CarBody,
     Load,
     Vehicle,
     check_arrangement,
-    check_body,
     check_load,
     check_mounts,
     check_payload,
@@ -34,9 +35,11 @@ from railride.vehicle_data import (
 )
 
 __all__ = [
+    "BodyProfile",
     "Bogie",
     "CarBody",
     "Load",
+    "PointMass",
     "Vehicle",
     "load_vehicle",
     "shipped_vehicles",
@@ -95,7 +98,7 @@ def _read_vehicle(path: Path) -> Vehicle:
         faults.add("schema", str(schema), f"{_SCHEMA}, the form that this version reads")
     name, source, remarks = top.text("name"), top.text("source"), top.texts("remarks")
     check_texts(path.stem if name is None else name, source or "", remarks, faults)
-    body = _read_body(top, faults)
+    body = read_body(top, faults)
     bogies = _read_bogies(top, faults)
     payload = _read_payload(top, faults)
     top.finish()
@@ -112,24 +115,6 @@ def _read_vehicle(path: Path) -> Vehicle:
     )
 
 
-def _read_body(top: Table, faults: Faults) -> dict[str, Any]:
-    """Values of ``[body]``; what is missing or faulty is left out and noted."""
-    table = top.table("body")
-    if table is None:
-        faults.add("[body]", "no such table", "the car body's mass, pitch_inertia, length, …")
-        return {}
-    values = _values(table, fields(CarBody))
-    inertia = table.text("inertia")
-    if inertia is not None:
-        values["inertia"] = inertia
-    table.finish()
-    for item in fields(CarBody):
-        if item.default is MISSING and item.name not in table:
-            _note_missing(table.key(item.name), item, faults)
-    check_body(values, table.key(""), faults)
-    return values
-
-
 def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
     """Values of each of ``[[bogies]]``, those of ``[bogie]`` where it has none of its own."""
     all_of_them = fields(Bogie)
@@ -137,13 +122,13 @@ def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
     common = top.table("bogie")
     shared: dict[str, Any] = {}
     if common is not None:
-        shared = _values(common, shared_fields)
+        shared = read_values(common, shared_fields)
         common.finish()
         check_wheelsets(shared, "bogie.", faults)
     bogies = []
     tables = top.tables("bogies")
     for table in tables:
-        own = _values(table, all_of_them)
+        own = read_values(table, all_of_them)
         table.finish()
         check_wheelsets(own, table.key(""), faults)
         check_mounts(shared | own, table.key(""), faults)
@@ -155,7 +140,7 @@ def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
         if without and len(without) == len(tables) and item.name != "position":
             without = [f"bogie.{item.name}"]  # once for all
         for where in without:
-            _note_missing(where, item, faults)
+            note_missing(where, item, faults)
     return bogies
 
 
@@ -163,32 +148,12 @@ def _read_payload(top: Table, faults: Faults) -> list[dict[str, Any]]:
     """Values of each of ``[[payload]]``."""
     loads = []
     for table in top.tables("payload"):
-        load = _values(table, fields(Load))
+        load = read_values(table, fields(Load))
         table.finish()
-        if "mass" not in table:
-            _note_missing(table.key("mass"), fields(Load)[0], faults)
+        note_all_missing(table, fields(Load), faults)
         check_load(load, table.key(""), faults)
         loads.append(load)
     return loads
-
-
-def _values(table: Table, items: Sequence[Field[Any]]) -> dict[str, Any]:
-    """SI values of those fields that have a unit and stand in the table without fault."""
-    values: dict[str, Any] = {}
-    for item in items:
-        if "unit" not in item.metadata:
-            continue
-        read = table.quantities if item.name == "wheelsets" else table.quantity
-        value = read(item.name, item.metadata["unit"], item.metadata["sign"])
-        if value is not None:
-            values[item.name] = value
-    return values
-
-
-def _note_missing(where: str, item: Field[Any], faults: Faults) -> None:
-    unit = item.metadata["unit"]
-    form = f'["number {unit}", …]' if item.name == "wheelsets" else f'"number {unit}"'
-    faults.add(where, "nothing", f"{item.name} = {form}", "the key is missing")
 
 
 def to_toml(vehicle: Vehicle) -> str:
@@ -199,7 +164,7 @@ def to_toml(vehicle: Vehicle) -> str:
     """
     lines = [f"name = {toml_text(vehicle.name)}", f"source = {toml_text(vehicle.source)}"]
     lines += ["remarks = [", *(f"    {toml_text(remark)}," for remark in vehicle.remarks), "]"]
-    lines += [f"schema = {_SCHEMA}", "", "[body]", *_lines(vehicle.body, fields(CarBody))]
+    lines += [f"schema = {_SCHEMA}", "", *body_lines(vehicle.body)]
     first, *others = vehicle.bogies
     shared = [
         item
@@ -207,31 +172,13 @@ def to_toml(vehicle: Vehicle) -> str:
         if item.name != "position"
         and all(getattr(bogie, item.name) == getattr(first, item.name) for bogie in others)
     ]
-    lines += ["", "[bogie]", *_lines(first, shared)]
+    lines += ["", "[bogie]", *written(first, shared)]
     own = [item for item in fields(Bogie) if item not in shared]
     for bogie in vehicle.bogies:
-        lines += ["", "[[bogies]]", *_lines(bogie, own)]
+        lines += ["", "[[bogies]]", *written(bogie, own)]
     for load in vehicle.payload:
-        lines += ["", "[[payload]]", *_lines(load, fields(Load))]
+        lines += ["", "[[payload]]", *written(load, fields(Load))]
     return "\n".join(lines) + "\n"
-
-
-def _lines(record: CarBody | Bogie | Load, items: Sequence[Field[Any]]) -> list[str]:
-    """``key = value`` for each field that does not have its default."""
-    lines = []
-    for item in items:
-        value = getattr(record, item.name)
-        if value == item.default:
-            continue
-        unit = item.metadata.get("unit")
-        if isinstance(value, str):
-            written = toml_text(value)
-        elif isinstance(value, tuple):
-            written = f"[{', '.join(toml_text(f'{number!r} {unit}') for number in value)}]"
-        else:
-            written = toml_text(f"{value!r} {unit}") if unit else repr(value)
-        lines.append(f"{item.name} = {written}")
-    return lines
 
 
 def write_vehicle(vehicle: Vehicle, path: str | Path) -> None:

@@ -106,6 +106,10 @@ class Table:
     def __contains__(self, name: str) -> bool:
         return name in self.content
 
+    def holds_list(self, name: str) -> bool:
+        """Whether a list stands under the key."""
+        return isinstance(self.content.get(name), list)
+
     def _take(self, name: str) -> Any:
         self._asked.append(name)
         return self.content.get(name)

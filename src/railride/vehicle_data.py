@@ -1,9 +1,7 @@
-"""Parameters of a vehicle in SI units: records that check themselves.
+"""A vehicle in SI units: a car body on bogies, with what it carries; records that check themselves.
 
 Symbols, from the front, x in m forward of the middle of the car body:
 
-    m_c, I_c, L     mass, pitch inertia and length of the car body
-    k_θ, c_θ        spring and damper in each joint between two segments of it
     m_b, I_b        mass and pitch inertia of a bogie
     k_1, c_1        primary suspension, per axle
     k_2, c_2        secondary suspension, per bogie
@@ -13,62 +11,15 @@ All are values of the whole vehicle in the vertical plane: left and right side a
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
+from railride.car_body import CarBody
 from railride.errors import Faults
-from railride.toml_tables import expected_sign, finite_number, shown
-
-INERTIA_METHODS = ("auto", "rods", "graded", "segments")
-"""How the segments meet the car body's pitch inertia."""
-
-_STIFFNESSES = ("bending_frequency", "joint_stiffness", "bending_stiffness")
-
-
-def _si(unit: str, sign: str = "") -> dict[str, str]:
-    """Say of a field which unit it has, and that it must be "> 0" or ">= 0" or, "", is free."""
-    return {"unit": unit, "sign": sign}
-
-
-@dataclass(frozen=True)
-class CarBody:
-    """Car body of mass m_c, pitch inertia I_c about its mass centre, and length L.
-
-    mass: m_c, kg. pitch_inertia: I_c, kg m². length: L, m.
-    mass_centre: m forward of the body's middle.
-    bending_frequency: Hz, free-free first bending, to which the joints are calibrated; or
-    joint_stiffness: k_θ, N m/rad; or bending_stiffness: EI, N m², k_θ = EI/(segment length).
-    One of the three at most; a body without any is rigid.
-    joint_damping: c_θ, N m s/rad; or bending_damping: damping ratio ζ of the first bending mode,
-    in [0, 1), c_θ = 2 ζ k_θ/ω_1.
-    inertia: "rods" (each segment has m ℓ²/12), "graded" (mass per length a + b x²), "segments"
-    (each segment's own inertia makes up I_c), "auto" (rods where m_c L²/12 is within 5 % of I_c,
-    otherwise graded).
-
-    Raises InputError, with all faults at once, for values that no car body can have.
-
-    >>> CarBody(mass=34_000, pitch_inertia=1.7e6, length=24, bending_frequency=9.6).length
-    24.0
-    """
-
-    mass: float = field(metadata=_si("kg", "> 0"))
-    pitch_inertia: float = field(metadata=_si("kg m^2", "> 0"))
-    length: float = field(metadata=_si("m", "> 0"))
-    mass_centre: float = field(default=0.0, metadata=_si("m"))
-    bending_frequency: float | None = field(default=None, metadata=_si("Hz", "> 0"))
-    joint_stiffness: float | None = field(default=None, metadata=_si("N m/rad", "> 0"))
-    bending_stiffness: float | None = field(default=None, metadata=_si("N m^2", "> 0"))
-    joint_damping: float | None = field(default=None, metadata=_si("N m s/rad", ">= 0"))
-    bending_damping: float = field(default=0.0, metadata=_si("", ">= 0"))
-    inertia: str = "auto"
-
-    def __post_init__(self) -> None:
-        faults = Faults("car body")
-        check_body(_checked_numbers(self, faults) | {"inertia": self.inertia}, "", faults)
-        faults.raise_if_any()
+from railride.quantities import LIST, checked_numbers, si
+from railride.toml_tables import shown
 
 
 @dataclass(frozen=True)
@@ -86,21 +37,21 @@ class Bogie:
     Raises InputError, with all faults at once, for values that no bogie can have.
     """
 
-    position: float = field(metadata=_si("m"))
-    mass: float = field(metadata=_si("kg", "> 0"))
-    pitch_inertia: float = field(metadata=_si("kg m^2", "> 0"))
-    wheelsets: tuple[float, ...] = field(metadata=_si("m"))
-    primary_stiffness: float = field(metadata=_si("N/m", "> 0"))
-    primary_damping: float = field(metadata=_si("N s/m", ">= 0"))
-    secondary_stiffness: float = field(metadata=_si("N/m", "> 0"))
-    secondary_damping: float = field(metadata=_si("N s/m", ">= 0"))
-    wheelset_mass: float | None = field(default=None, metadata=_si("kg", "> 0"))
-    primary_damper_stiffness: float | None = field(default=None, metadata=_si("N/m", "> 0"))
-    secondary_damper_stiffness: float | None = field(default=None, metadata=_si("N/m", "> 0"))
+    position: float = field(metadata=si("m"))
+    mass: float = field(metadata=si("kg", "> 0"))
+    pitch_inertia: float = field(metadata=si("kg m^2", "> 0"))
+    wheelsets: tuple[float, ...] = field(metadata=si("m", many=LIST))
+    primary_stiffness: float = field(metadata=si("N/m", "> 0"))
+    primary_damping: float = field(metadata=si("N s/m", ">= 0"))
+    secondary_stiffness: float = field(metadata=si("N/m", "> 0"))
+    secondary_damping: float = field(metadata=si("N s/m", ">= 0"))
+    wheelset_mass: float | None = field(default=None, metadata=si("kg", "> 0"))
+    primary_damper_stiffness: float | None = field(default=None, metadata=si("N/m", "> 0"))
+    secondary_damper_stiffness: float | None = field(default=None, metadata=si("N/m", "> 0"))
 
     def __post_init__(self) -> None:
         faults = Faults("bogie")
-        check_wheelsets(_checked_numbers(self, faults), "", faults)
+        check_wheelsets(checked_numbers(self, faults), "", faults)
         check_mounts(vars(self), "", faults)
         faults.raise_if_any()
 
@@ -115,13 +66,13 @@ class Load:
     Raises InputError, with all faults at once, for values that no load can have.
     """
 
-    mass: float = field(metadata=_si("kg", "> 0"))
-    front: float | None = field(default=None, metadata=_si("m"))
-    rear: float | None = field(default=None, metadata=_si("m"))
+    mass: float = field(metadata=si("kg", "> 0"))
+    front: float | None = field(default=None, metadata=si("m"))
+    rear: float | None = field(default=None, metadata=si("m"))
 
     def __post_init__(self) -> None:
         faults = Faults("payload")
-        check_load(_checked_numbers(self, faults), "", faults)
+        check_load(checked_numbers(self, faults), "", faults)
         faults.raise_if_any()
 
 
@@ -175,67 +126,6 @@ class Vehicle:
         (10.0, 7.5, -7.5, -10.0)
         """
         return tuple(bogie.position + x for bogie in self.bogies for x in bogie.wheelsets)
-
-
-def _checked_numbers(record: CarBody | Bogie | Load, faults: Faults) -> dict[str, Any]:
-    """Make the numbers of ``record`` floats; return the good ones, noting the faults of others."""
-    good: dict[str, Any] = {}
-    for item in fields(record):
-        value = getattr(record, item.name)
-        if "unit" not in item.metadata or (value is None and item.default is None):
-            continue
-        several = item.name == "wheelsets"
-        if several and (isinstance(value, str) or not isinstance(value, Sequence)):
-            faults.add(item.name, shown(value), "a sequence of numbers, m")
-            continue
-        numbers = tuple(finite_number(x) for x in (value if several else (value,)))
-        expected = [expected_sign(x, item.metadata["sign"]) for x in numbers]
-        if any(expected):
-            wanted = next(filter(None, expected))
-            faults.add(item.name, shown(value), f"{wanted} {item.metadata['unit']}".rstrip())
-            continue
-        good[item.name] = numbers if several else numbers[0]
-        object.__setattr__(record, item.name, good[item.name])
-    return good
-
-
-def check_body(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
-    """Note what is wrong between the values of a car body, those that are known."""
-    length, mass_centre = values.get("length"), values.get("mass_centre")
-    if length is not None and mass_centre is not None and abs(mass_centre) >= length / 2:
-        faults.add(
-            f"{prefix}mass_centre",
-            f"{mass_centre:g} m",
-            f"a place within the body, less than {length / 2:g} m from its middle",
-        )
-    given = [name for name in _STIFFNESSES if values.get(name) is not None]
-    if len(given) > 1:
-        faults.add(
-            f"{prefix}{given[-1]}",
-            f"{' and '.join(given)} together",
-            f"one of {', '.join(_STIFFNESSES)}",
-            "they all set the stiffness of the joints: keep one",
-        )
-    damping = values.get("bending_damping")
-    if damping is not None and damping >= 1.0:
-        faults.add(
-            f"{prefix}bending_damping",
-            f"{damping:g}",
-            "a damping ratio of at least 0 and less than 1",
-            'a car body has some "1.5 %"',
-        )
-    if damping and values.get("joint_damping") is not None:
-        faults.add(
-            f"{prefix}joint_damping",
-            "joint_damping and bending_damping together",
-            "one of them",
-            "they both set the damping of the joints: keep one",
-        )
-    inertia = values.get("inertia")
-    if inertia is not None and inertia not in INERTIA_METHODS:
-        near = difflib.get_close_matches(str(inertia), INERTIA_METHODS, n=1)
-        mend = f"did you mean {near[0]}?" if near else ""
-        faults.add(f"{prefix}inertia", shown(inertia), f"one of {', '.join(INERTIA_METHODS)}", mend)
 
 
 def check_wheelsets(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:

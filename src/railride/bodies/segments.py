@@ -65,6 +65,8 @@ class SegmentedBody(BodyModel):
     kind = "segments"
 
     def __post_init__(self) -> None:
+        if self.body.profile is not None:
+            raise InputError("body.profile: found it with equal segments; expected none")
         if not self.stiffness_given:
             raise InputError(
                 f"segments: found {self.number} segments of a body whose bending is not known; "

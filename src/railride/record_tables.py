@@ -1,0 +1,61 @@
+"""Records of quantities as tables of a TOML file: read with every fault noted, and written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import MISSING, Field
+from typing import TYPE_CHECKING, Any
+
+from railride.errors import Faults
+from railride.quantities import EITHER, LIST
+from railride.toml_tables import Table, toml_text
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+
+def read_values(table: Table, items: Sequence[Field[Any]]) -> dict[str, Any]:
+    """SI values of those fields that have a unit and stand in the table without fault."""
+    values: dict[str, Any] = {}
+    for item in items:
+        if "unit" not in item.metadata:
+            continue
+        many = item.metadata["many"]
+        several = many == LIST or (many == EITHER and table.holds_list(item.name))
+        read = table.quantities if several else table.quantity
+        value = read(item.name, item.metadata["unit"], item.metadata["sign"])
+        if value is not None:
+            values[item.name] = value
+    return values
+
+
+def note_all_missing(table: Table, items: Sequence[Field[Any]], faults: Faults) -> None:
+    """Note every field without a default that does not stand in the table."""
+    for item in items:
+        if item.default is MISSING and item.name not in table:
+            note_missing(table.key(item.name), item, faults)
+
+
+def note_missing(where: str, item: Field[Any], faults: Faults) -> None:
+    """Note that a field's key is missing."""
+    unit = item.metadata["unit"]
+    form = f'["number {unit}", …]' if item.metadata["many"] == LIST else f'"number {unit}"'
+    faults.add(where, "nothing", f"{item.name} = {form}", "the key is missing")
+
+
+def written(record: DataclassInstance, items: Sequence[Field[Any]]) -> list[str]:
+    """``key = value`` for each field that has a text or a quantity other than its default."""
+    lines = []
+    for item in items:
+        value = getattr(record, item.name)
+        unit = item.metadata.get("unit")
+        if value == item.default or not (unit is not None or isinstance(value, str)):
+            continue
+        if isinstance(value, str):
+            text = toml_text(value)
+        elif isinstance(value, tuple):
+            text = f"[{', '.join(toml_text(f'{number!r} {unit}') for number in value)}]"
+        else:
+            text = toml_text(f"{value!r} {unit}") if unit else repr(value)
+        lines.append(f"{item.name} = {text}")
+    return lines
