@@ -170,3 +170,73 @@ def test_a_file_that_contradicts_its_profile_says_both_values(tmp_path):
     path.write_text(COACH.replace('"34000 kg"', '"36 t"') + TABLE, encoding="utf-8")
     with pytest.raises(InputError, match=r"body.mass: found 36000 kg; expected 34000 kg, the prof"):
         load_vehicle(path)
+
+
+CSV = """x [m];bending_stiffness [GN m^2];mass_per_length [t/m]
+-12;3;1,5
+0;3,2;1,3
+12;3;1,5
+"""
+BY_FILE = """
+[body.profile]
+file = "tables/coach.csv"
+[[body.profile.point_masses]]
+mass = "400 kg"
+position = "6 m"
+"""
+
+
+def coach_by_file(tmp_path, text):
+    """A parameter file whose profile is in a file of its own."""
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "coach.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "coach.toml").write_text(COACH.replace(OWN, "") + BY_FILE, encoding="utf-8")
+    return tmp_path / "coach.toml"
+
+
+def test_a_profile_may_stand_in_a_file_of_its_own(tmp_path):
+    found = load_vehicle(coach_by_file(tmp_path, CSV)).body.profile
+    assert found == BodyProfile(
+        (-12, 0, 12), (3e9, 3.2e9, 3e9), (1500, 1300, 1500), point_masses=(PointMass(400, 6.0),)
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("x [m]", "x", "column 'x': found no unit; expected one such as [m]"),
+        ("[GN m^2]", "[GN/m]", "found the unit 'GN/m'; expected one such as [N m^2]"),
+        ("[t/m]", "[tt/m]", "column 'mass_per_length [tt/m]': found 'tt' is no unit that is known"),
+        ("mass_per_length", "mass", "header: found no column mass_per_length; expected one headed"),
+        ("mass_per_length", "mass", "column 'mass [t/m]': found a name that is not known"),
+        (
+            "0;3,2",
+            "0;-3,2",
+            "row 3, column 'bending_stiffness [GN m^2]': found '-3,2'; expected a p",
+        ),
+        (
+            "0;3,2",
+            "0;none",
+            "row 3, column 'bending_stiffness [GN m^2]': found 'none'; expected a p",
+        ),
+        ("0;3,2", "13;3,2", "body.profile.x[3]: found 12 m after 13 m; expected ascending"),
+    ],
+)
+def test_faults_of_a_file_of_columns_are_named_by_row_and_column(tmp_path, old, new, message):
+    path = coach_by_file(tmp_path, CSV.replace(old, new))
+    with pytest.raises(InputError) as caught:
+        load_vehicle(path)
+    assert message in str(caught.value)
+
+
+def test_a_profile_s_file_that_is_missing_or_doubled_is_named(tmp_path):
+    path = coach_by_file(tmp_path, CSV)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("coach.csv", "cooch.csv"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"cooch.csv: file: found no such file"):
+        load_vehicle(path)
+    path.write_text(text.replace('coach.csv"', 'coach.csv"\nx = ["0 m"]'), encoding="utf-8")
+    with pytest.raises(
+        InputError, match=r"body.profile.file: found a file and x with it; expected"
+    ):
+        load_vehicle(path)

@@ -1,6 +1,7 @@
 """The car body in parameter files: the table ``[body]`` and those of what it has along its length.
 
-``[body.profile]`` has a list for each column of :class:`BodyProfile`, and a table
+``[body.profile]`` has a list for each column of :class:`BodyProfile`, or names a ``file`` that has these
+columns with their units (``x [m]``, ``bending_stiffness [N m^2]``); and a table
 ``[[body.profile.point_masses]]`` for each mass. With a profile, mass, mass centre, pitch inertia
 and length may be left out: they follow.
 """
@@ -8,17 +9,24 @@ and length may be left out: they follow.
 from __future__ import annotations
 
 from dataclasses import fields
+from pathlib import Path
 from typing import Any
 
 from railride.body_profile import BodyProfile, PointMass, check_profile
 from railride.car_body import CarBody, check_body, rigid_values
-from railride.errors import Faults
+from railride.errors import Faults, RowFaults
+from railride.quantities import quantity_fields
 from railride.record_tables import note_all_missing, read_values, written
-from railride.toml_tables import Table
+from railride.tables import Column, NumberTable, read_table
+from railride.toml_tables import Table, expected_sign
+from railride.units import QuantityError, same_dimension, to_si
 
 
-def read_body(top: Table, faults: Faults) -> dict[str, Any]:
-    """Values of ``[body]``; what is missing or faulty is left out and noted."""
+def read_body(top: Table, folder: Path, faults: Faults) -> dict[str, Any]:
+    """Values of ``[body]``; what is missing or faulty is left out and noted.
+
+    folder: in which a file of a profile is looked for.
+    """
     table = top.table("body")
     if table is None:
         faults.add("[body]", "no such table", "the car body's mass, pitch_inertia, length, …")
@@ -28,7 +36,7 @@ def read_body(top: Table, faults: Faults) -> dict[str, Any]:
     if inertia is not None:
         values["inertia"] = inertia
     described = table.table("profile")
-    profile = None if described is None else _read_profile(described, faults)
+    profile = None if described is None else _read_profile(described, folder, faults)
     table.finish()
     if described is None:
         note_all_missing(table, fields(CarBody), faults)
@@ -38,18 +46,68 @@ def read_body(top: Table, faults: Faults) -> dict[str, Any]:
     return values if profile is None else values | rigid_values(profile)
 
 
-def _read_profile(table: Table, faults: Faults) -> BodyProfile | None:
+def _read_profile(table: Table, folder: Path, faults: Faults) -> BodyProfile | None:
     """The profile of ``[body.profile]``; None, with the faults noted, where it is not whole."""
     before = len(faults.found)
-    values = read_values(table, fields(BodyProfile))
-    values["point_masses"] = [_read_point(point, faults) for point in table.tables("point_masses")]
+    values, name = read_values(table, fields(BodyProfile)), table.text("file")
+    points = [_read_point(point, faults) for point in table.tables("point_masses")]
     table.finish()
-    note_all_missing(table, fields(BodyProfile), faults)
-    check_profile(values, table.key(""), faults)
+    if name is None:
+        note_all_missing(table, fields(BodyProfile), faults)
+    elif values:
+        faults.add(table.key("file"), f"a file and {', '.join(values)} with it", "one of the two")
+    else:
+        values = _read_columns(read_table(folder / name))
+    check_profile(values | {"point_masses": points}, table.key(""), faults)
     if len(faults.found) > before:
         return None
-    points = tuple(PointMass(**point) for point in values.pop("point_masses"))
-    return BodyProfile(**values, point_masses=points)
+    return BodyProfile(**values, point_masses=tuple(PointMass(**point) for point in points))
+
+
+def _read_columns(table: NumberTable) -> dict[str, tuple[float, ...]]:
+    """Columns of a profile from a file, SI."""
+    faults = Faults(table.source)
+    values: dict[str, tuple[float, ...]] = {}
+    items = quantity_fields(BodyProfile)
+    names = ", ".join(item.name for item in items)
+    for item in items:
+        found = table.find(item.name)
+        if len(found) > 1:
+            faults.add("header", f"{item.name} twice", "one column of each")
+        elif found:
+            values[item.name] = _read_column(table, found[0], item.metadata, faults)
+        elif item.default is not None:
+            unit = item.metadata["unit"]
+            faults.add("header", f"no column {item.name}", f"one headed {item.name} [{unit}]")
+    known = {column.heading for name in values for column in table.find(name)}
+    for column in table.columns:
+        if column.heading not in known:
+            faults.add(f"column {column.heading!r}", "a name that is not known", f"one of {names}")
+    faults.raise_if_any()
+    return values
+
+
+def _read_column(
+    table: NumberTable, column: Column, metadata: Any, faults: Faults
+) -> tuple[float, ...]:
+    """Numbers of one column, SI."""
+    unit, where = metadata["unit"], f"column {column.heading!r}"
+    try:
+        if not same_dimension(column.unit, unit):
+            given = f"the unit {column.unit!r}" if column.unit else "no unit"
+            faults.add(where, given, f"one such as [{unit}]")
+            return ()
+    except QuantityError as error:
+        faults.add(where, error.found, error.expected, error.mend)
+        return ()
+    rows = RowFaults(faults)
+    bad = set(column.bad.tolist())
+    for i, value in enumerate(column.numbers.tolist()):
+        expected = expected_sign(None if i in bad else value, metadata["sign"])
+        if expected:
+            rows.add(table.row(i), column.heading, column.shown(i), expected)
+    rows.close()
+    return tuple(to_si(column.numbers.astype(float), column.unit).tolist())
 
 
 def _read_point(table: Table, faults: Faults) -> dict[str, Any]:

@@ -98,7 +98,7 @@ def _read_vehicle(path: Path) -> Vehicle:
         faults.add("schema", str(schema), f"{_SCHEMA}, the form that this version reads")
     name, source, remarks = top.text("name"), top.text("source"), top.texts("remarks")
     check_texts(path.stem if name is None else name, source or "", remarks, faults)
-    body = read_body(top, faults)
+    body = read_body(top, path.parent, faults)
     bogies = _read_bogies(top, faults)
     payload = _read_payload(top, faults)
     top.finish()
