@@ -1,7 +1,7 @@
 """The car body in parameter files: the table ``[body]`` and those of what it has along its length.
 
-``[body.profile]`` has a list for each column of :class:`BodyProfile`, or names a ``file`` that has these
-columns with their units (``x [m]``, ``bending_stiffness [N m^2]``); and a table
+``[body.profile]`` has a list for each column of :class:`BodyProfile`, or names a ``file`` of these
+columns, headed ``x [m]``, ``bending_stiffness [N m^2]`` and so on; and there is a table
 ``[[body.profile.point_masses]]`` for each mass. With a profile, mass, mass centre, pitch inertia
 and length may be left out: they follow.
 """
