@@ -144,7 +144,7 @@ def test_lines_are_what_was_computed_and_told_apart():
         "144 km/h", "200 km/h", "zeros (k + ½)·V/17.5 m, bogie spacing",
         "zeros (k + ½)·V/2.5 m, wheelbase",
     ]  # fmt: skip
-    assert figure.get_suptitle() == "cati2024, N = 4, smooth floor, x = 0 m"
+    assert figure.get_suptitle() == "cati2024, 4 segments, smooth floor, x = 0 m"
     assert above.get_ylabel() == "magnitude [(m/s²)/m]"
     assert (below.get_xlabel(), below.get_ylabel()) == ("frequency [Hz]", "phase [°]")
     assert (above.get_xscale(), above.get_yscale()) == ("log", "log")
@@ -169,7 +169,7 @@ def test_several_bodies_in_one_picture(tmp_path):
     found = [bode(paper_coach(n), [V])[0] for n in (1, 2, 8)]
     figure = plot_bode(found)
     names = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert names[:3] == ["rigid body", "N = 2", "N = 8"]
+    assert names[:3] == ["rigid body", "2 segments", "8 segments"]
     save(figure, tmp_path / "bode.png")  # laid out, without a warning
     assert figure.axes[1].get_position().height > 0.4
     save(plot_bode(bode(paper_coach(1), [V], [1.0])), tmp_path / "one.png")

@@ -56,8 +56,8 @@ def case(speed=40.0, position=0.0, seconds=5.0, **changes):
     return Case(speed, position, "segments", 4, 0.3456, 0.2222, **{**values, **changes})
 
 
-def result(*cases):
-    return RideResult("cati2024", "erri_low", "smooth", "Wk", cases)
+def result(*cases, body="4 segments"):
+    return RideResult("cati2024", "erri_low", "smooth", "Wk", cases, body=body)
 
 
 def texts(ax):
@@ -511,6 +511,6 @@ def test_loci_where_nothing_oscillates_or_moves_can_be_drawn():
     plots.plot_damping(still).figure.draw_without_rendering()
 
 
-def test_one_segment_is_called_a_rigid_body():
-    figure = plot_ride(result(replace(case(), segments=1)))
+def test_a_ride_is_headed_with_its_body():
+    figure = plot_ride(result(case(), body="rigid body"))
     assert "(rigid body)" in figure.get_suptitle()

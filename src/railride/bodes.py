@@ -55,13 +55,14 @@ class GeometricZeros:
 class BodeResponse:
     """H from the elevation under the leading wheelset to an output, at one speed.
 
-    speed : m/s. position : m forward of the body's middle. output : what responds, with its unit.
-    frequency : Hz, (F,). H : complex, (F,), the output's unit per m. modes : of the vehicle.
-    zeros : the geometric filtering, up to the highest frequency.
+    body : the car body in a few words. speed : m/s. position : m forward of the body's middle.
+    output : what responds, with its unit. frequency : Hz, (F,). H : complex, (F,), the output's
+    unit per m. modes : of the vehicle. zeros : the geometric filtering, up to the highest
+    frequency.
     """
 
     vehicle: str
-    segments: int
+    body: str
     floor: str
     speed: float
     position: float
@@ -136,7 +137,7 @@ def bode(
     H = [responses(model, outputs, [TRACK], f, speed=v, **changes)[:, 0] for v in speeds]
     return tuple(
         BodeResponse(
-            model.vehicle.name, model.body.segments, floor, v, x, output, f, H[i][k], found_modes,
+            model.vehicle.name, model.body.title, floor, v, x, output, f, H[i][k], found_modes,
             geometric_zeros(model, output, v, float(f[-1]), **changes),
         )
         for i, v in enumerate(speeds)

@@ -29,7 +29,6 @@ from numpy.typing import ArrayLike, NDArray
 from railride.errors import InputError
 from railride.modal import Solution, solve
 from railride.naming import energy
-from railride.parameter_values import ParameterValues
 from railride.vehicle import VehicleModel
 
 if TYPE_CHECKING:
@@ -39,10 +38,6 @@ ALIKE = 0.9  # modal assurance between steps: below it a step is halved
 NEAR = 0.1  # of |λ_i| + |λ_j|: farther, and a step is halved
 HALVINGS = 12  # of one step: where a pair becomes real, its shapes change without limit
 MOST_BETWEEN = 200  # values in one step, should nothing ever be without doubt
-UNIT_OF = {  # and meaning, of what follows from other parameters
-    "k_theta": ("N m/rad", "joint stiffness"),
-    "c_theta": ("N m s/rad", "joint damping"),
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,11 +110,9 @@ def described(model: VehicleModel, name: str) -> tuple[str, str, str]:
     ------
     InputError : a name that the model does not have, with the list of those that it has.
     """
-    symbol = ParameterValues(model.body, model.running_gear).symbol_of(name)
-    for parameter in model.parameters:
-        if parameter.symbol.name == symbol:
-            return symbol, parameter.unit, parameter.meaning
-    return symbol, *UNIT_OF.get(symbol, ("", ""))
+    symbol = model.symbol_of(name)
+    meaning, unit = model.meanings.get(symbol, ("", ""))
+    return symbol, unit, meaning
 
 
 def _varied(parameter: dict[str, Any]) -> tuple[str, NDArray[np.float64], dict[str, Any]]:

@@ -101,9 +101,8 @@ def motions(model: VehicleModel, A: Matrices) -> Motions:
 def _free_body_shapes(model: VehicleModel, M: Array) -> Array:
     """Heave, pitch about the mass centre, and the bending shapes, as columns."""
     heave = model.lift[: len(M)]
-    # Pitch: of a rigid body its second coordinate, else the nodes in line, from the front.
-    x = np.array([0.0, 1.0]) if model.body.segments == 1 else np.linspace(0.5, -0.5, len(M))
-    pitch = x - heave * (heave @ M @ x) / (heave @ M @ heave)
+    turn = model.pitch()[: len(M)]
+    pitch = turn - heave * (heave @ M @ turn) / (heave @ M @ heave)
     K = model.free_body_stiffness()
     inverse = np.linalg.inv(np.linalg.cholesky(M))
     _, vectors = np.linalg.eigh(inverse @ K @ inverse.T)

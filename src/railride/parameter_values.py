@@ -11,17 +11,17 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from railride.bodies import BodyModel, Parameter
-from railride.bodies.segments import c_theta, f_bending, k_theta, zeta_bending
 from railride.errors import InputError
-from railride.linear import linearise
-from railride.numeric import Array, MatrixFunction, symmetric_eigenvalues
+from railride.lagrange import Lagrangian, Signal
+from railride.numeric import Array, MatrixFunction
 from railride.running_gear import OPTIONAL, SYMBOLS, RunningGear
 
 KEYS = {  # of parameter files that name one symbol without doubt
-    "bending_frequency": f_bending,
-    "bending_damping": zeta_bending,
-    "joint_stiffness": k_theta,
-    "joint_damping": c_theta,
+    "bending_frequency": "f_bending",
+    "bending_damping": "zeta_bending",
+    "bending_stiffness": "EI",
+    "joint_stiffness": "k_theta",
+    "joint_damping": "c_theta",
 }
 AMBIGUOUS = ("mass", "pitch_inertia")  # of the body or of a bogie
 
@@ -31,12 +31,14 @@ class ParameterValues:
 
     Parameters
     ----------
-    body, running_gear : what has the parameters.
+    body, running_gear : what has the parameters. system : their energies.
     """
 
-    def __init__(self, body: BodyModel, running_gear: RunningGear) -> None:
+    def __init__(self, body: BodyModel, running_gear: RunningGear, system: Lagrangian) -> None:
         self.body, self.running_gear = body, running_gear
         self.independent: tuple[Parameter, ...] = (*body.parameters, *running_gear.parameters)
+        known = {p.symbol for p in self.independent} | set(body.definitions)
+        self.dependent = sorted(_parameters_of(system) - known, key=lambda s: s.name)
 
     def at(self, changes: Mapping[str, ArrayLike]) -> dict[str, Array]:
         """Values with those in ``changes`` (by symbol, see :meth:`symbol_of`) in their place.
@@ -48,7 +50,7 @@ class ParameterValues:
         """
         values = {p.symbol.name: np.asarray(p.value, dtype=float) for p in self.independent}
         symbols = {p.symbol.name: p.symbol for p in self.independent}
-        symbols |= {s.name: s for s in (*self.body.definitions, k_theta)}
+        symbols |= {s.name: s for s in (*self.body.definitions, *self.body.followers)}
         for name, value in changes.items():
             values[name] = _as_numbers(name, value)
             _refuse_impossible(name, values[name], symbols.get(name))
@@ -57,9 +59,8 @@ class ParameterValues:
             if name not in changes:
                 values[name] = definition(values)[name][..., 0, 0]
         self.body.check_values(values)
-        if self.body.segments > 1:
-            self._calibrate_joints(values)
-        return values
+        left = [symbol for symbol in self.dependent if symbol.name not in changes]
+        return values | self.body.dependent_values(values, left)
 
     def symbol_of(self, name: str) -> str:
         """The symbol behind a name: itself, or a key of parameter files that all bogies share.
@@ -69,10 +70,9 @@ class ParameterValues:
         InputError : a name that the model does not have, with those it has and the near ones.
         """
         symbols = {p.symbol.name: p.meaning for p in self.independent}
-        if self.body.segments > 1:
-            symbols |= {s.name: "follows from others" for s in self.body.definitions}
-            symbols |= {k_theta.name: "joint stiffness", c_theta.name: "joint damping"}
-        keys = {key: symbol.name for key, symbol in KEYS.items()}
+        symbols |= {s.name: "follows from others" for s in self.body.definitions}
+        symbols |= {s.name: meaning for s, (meaning, _) in self.body.followers.items()}
+        keys = dict(KEYS)
         for key in {**SYMBOLS, **OPTIONAL}:
             if key not in AMBIGUOUS:
                 keys[key] = self.running_gear.symbol(key, 1).name
@@ -91,33 +91,13 @@ class ParameterValues:
             for symbol, definition in self.body.definitions.items()
         }
 
-    def _calibrate_joints(self, values: dict[str, Array]) -> None:
-        """Put k_θ = (2π f_1)²/λ_1 and c_θ = 2 ζ k_θ/ω_1 in, λ_1 = ω_1²/k_θ of the free body.
 
-        Source for c_θ: a joint moment k_θ γ + c_θ γ̇ damps the first mode by c_θ ω_1/(2 k_θ).
-        """
-        if k_theta.name in values and c_theta.name in values:
-            return
-        unit = self.unit_bending(values)[..., 0]
-        if k_theta.name not in values:
-            values[k_theta.name] = (2 * np.pi * values[f_bending.name]) ** 2 / unit
-        if c_theta.name not in values:
-            stiffness, omega = values[k_theta.name], np.sqrt(values[k_theta.name] * unit)
-            values[c_theta.name] = 2 * values[zeta_bending.name] * stiffness / omega
-
-    @cached_property
-    def _free_body(self) -> MatrixFunction:
-        linear = linearise(self.body.energies)
-        return MatrixFunction({"M": linear.M, "K": linear.K})
-
-    def free_body_stiffness(self, values: Mapping[str, ArrayLike]) -> Array:
-        """K of the empty car body alone, free in space: shape (..., n, n) in its coordinates."""
-        return self._free_body(values)["K"]
-
-    def unit_bending(self, values: Mapping[str, ArrayLike]) -> Array:
-        """ω²/k_θ of the empty body's free-free bending modes, ascending: shape (..., N - 1)."""
-        A = self._free_body({**values, k_theta.name: 1.0})
-        return symmetric_eigenvalues(A["M"], A["K"])[..., 2:]
+def _parameters_of(system: Lagrangian) -> set[sp.Symbol]:
+    """The symbols of a system that are no signals."""
+    work = [part for pair in system.virtual_work for part in pair]
+    energies = [system.kinetic, system.potential, system.dissipation]
+    found = [sp.sympify(u).free_symbols for u in (*energies, *work, *system.kinematics.values())]
+    return {s for s in set[sp.Symbol]().union(*found) if not isinstance(s, Signal)}
 
 
 def _as_numbers(name: str, value: ArrayLike) -> Array:

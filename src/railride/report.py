@@ -91,12 +91,13 @@ def command(model: VehicleModel, form: str, nonlinear: bool = False) -> str:
 
 
 def _opening(model: VehicleModel, form: str, nonlinear: bool) -> list[Block]:
-    N, bogies = model.body.segments, len(model.vehicle.bogies)
-    body = "a rigid car body" if N == 1 else f"a car body of {N} rigid segments"
+    bogies = len(model.vehicle.bogies)
     source = f" Source of the values: {model.vehicle.source}" if model.vehicle.source else ""
     remarks = [*model.vehicle.remarks, *model.remarks]
     return [
-        Heading(f"{model.vehicle.name}: {body} on {bogies} bogie{'s' * (bogies != 1)}", 1),
+        Heading(
+            f"{model.vehicle.name}: {model.body.phrase} on {bogies} bogie{'s' * (bogies != 1)}", 1
+        ),
         Paragraph(f"Made by `{command(model, form, nonlinear)}`.{source}"),
         *(Paragraph(f"Remark: {remark}.") for remark in remarks),
     ]
@@ -111,7 +112,7 @@ MEANING = {
 }
 
 
-def _meaning(name: str, last: int) -> str:
+def _meaning(name: str, last: int | None) -> str:
     head = name.rstrip("0123456789")
     number = name[len(head) :]
     text = MEANING.get(name) or MEANING.get(head, "coordinate of the car body").format(number)
@@ -255,8 +256,7 @@ def _matrix(
 
 
 def _parameters(model: VehicleModel) -> list[Block]:
-    known = {p.symbol.name: (p.meaning, p.unit) for p in model.parameters}
-    known |= {"k_theta": ("joint stiffness", "N m/rad"), "c_theta": ("joint damping", "N m s/rad")}
+    known = model.meanings
     rows = [
         (f"${math(sp.Symbol(name))}$", number(float(value)), *_words(known.get(name, ("", ""))))
         for name, value in model.values().items()

@@ -65,13 +65,14 @@ class Case:
 
     standard_error : of a_wrms, for a run of this length over this spectrum; of an exact value from
     a measured track alone, for that track's length.
-    record : what is behind the values, None if they come from the spectrum alone.
+    body : the car body's kind; segments, modes : how many of them it has, None if it is not made
+    of them. record : what is behind the values, None if they come from the spectrum alone.
     """
 
     speed: float
     position: float
     body: str
-    segments: int
+    segments: int | None
     a_rms: float
     a_wrms: float
     a_wrms_exact: float | None
@@ -81,6 +82,7 @@ class Case:
     crest_factor: float | None = None
     wz: float | None = None
     record: Record | None = None
+    modes: int | None = None
 
     @property
     def level(self) -> str:
@@ -95,7 +97,10 @@ class Case:
 
 @dataclass(frozen=True)
 class RideResult:
-    """All cases of a ride, speeds outer and positions inner, and what to know of them."""
+    """All cases of a ride, speeds outer and positions inner, and what to know of them.
+
+    body : the car body in a few words.
+    """
 
     vehicle: str
     track: str
@@ -105,6 +110,7 @@ class RideResult:
     remarks: tuple[str, ...] = ()
     length: float | None = None
     seed: int | None = None
+    body: str = "car body"
 
     def _repr_html_(self) -> str:
         return str(self.table().to_html(index=False, float_format="%.4g"))
@@ -209,6 +215,7 @@ def ride(
         tuple(dict.fromkeys(remarks)),
         None if spectral else length,
         seed if road is not None and road is not source else None,
+        model.body.title,
     )
 
 
@@ -297,6 +304,7 @@ def _rate(
                 found.crest_factor,
                 found.wz,
                 Record(run.time, run.distance, run.elevation, acceleration, weighted, run.rated),
+                model.body.mode_count,
             )
         )
     return cases, remarks
@@ -308,13 +316,24 @@ def _exact_cases(
     """The exact values alone; those of a measured track have a standard error of their own."""
     if exact is None:
         return []
-    kind, segments = model.body.kind, model.body.segments
+    kind, segments, count = model.body.kind, model.body.segments, model.body.mode_count
     errors: list[float | None] = [None] * len(exact.positions)
     if isinstance(of, MeasuredSpectrum):
         errors = list(map(float, exact.standard_error(of.effective_length / speed)))
     values = zip(exact.positions, exact.a_rms, exact.a_wrms, errors, exact.wz, strict=True)
     return [
-        Case(speed, x, kind, segments, float(a), float(a_w), float(a_w), error, wz=float(wz))
+        Case(
+            speed,
+            x,
+            kind,
+            segments,
+            float(a),
+            float(a_w),
+            float(a_w),
+            error,
+            wz=float(wz),
+            modes=count,
+        )
         for x, a, a_w, error, wz in values
     ]
 

@@ -20,15 +20,14 @@ Source: Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Figure 2 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 from sympy import sin
 
-from railride.bodies import BodyModel, Parameter
+from railride.bodies import BodyModel, Parameter, Place
 from railride.lagrange import Coordinate, Force, Input, Lagrangian
-from railride.numeric import Array
 from railride.parameters import Vehicle
 
 SYMBOLS = {
@@ -106,10 +105,10 @@ class RunningGear:
         free = body.energies
         T, V, D = [free.kinetic], [free.potential], [free.dissipation]
         kinematics = dict(free.kinematics)
-        for b, bogie in zip(self.bogies, self.vehicle.bogies, strict=True):
+        for b in self.bogies:
             m_b, I_b, k_1, c_1, k_2, c_2 = (self.symbol(name, b) for name in SYMBOLS)
             z, theta, s = bogie_heave(b), bogie_pitch(b), secondary_deflection(b)
-            kinematics[s] = body.height(self.place(b), bogie.position) - z
+            kinematics[s] = body.height(self.place(b)) - z
             T += [m_b * z.dot**2 / 2, I_b * theta.dot**2 / 2]
             V.append(k_2 * s**2 / 2)
             stroke = self._stroke("secondary_damper_stiffness", b, s, secondary_stroke(b), V)
@@ -144,7 +143,7 @@ class RunningGear:
                 if getattr(bogie, name) is not None:
                     symbol = self.symbol(name, b)
                     found[symbol] = Parameter(symbol, meaning, unit, getattr(bogie, name))
-            places = [(self.place(b), "bogie position, from the body's middle", bogie.position)]
+            places = [(self.place(b).x, "bogie position, from the body's middle", bogie.position)]
             places += [
                 (lever, "wheelset position, from the bogie's centre", x)
                 for (_, lever), x in zip(self.levers(b), bogie.wheelsets, strict=True)
@@ -198,14 +197,12 @@ class RunningGear:
         sign = {"nonnegative": True} if name.endswith("damping") else {"positive": True}
         return sp.Symbol(symbol if agree else own, **sign)
 
-    def place(self, b: int) -> sp.Expr:
+    def place(self, b: int) -> Place:
         """Bogie b's position: ±l_b for a mirrored pair, else a symbol of its own."""
-        return _places([bogie.position for bogie in self.vehicle.bogies], "l_b", "x_b")[b - 1]
-
-    def place_value(self, b: int, values: Mapping[str, Array]) -> Array | float:
-        """Bogie b's position at the values of the parameters, m."""
-        place = self.place(b)
-        return sum((int(place / s) * values[s.name] for s in place.free_symbols), start=0.0)
+        positions = [bogie.position for bogie in self.vehicle.bogies]
+        return Place(
+            f"bogie {b}", f"b{b}", _places(positions, "l_b", "x_b")[b - 1], positions[b - 1]
+        )
 
     def levers(self, b: int) -> list[tuple[int, sp.Expr]]:
         """The wheelsets of bogie b: number on the vehicle, and place on the bogie."""

@@ -18,7 +18,6 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from railride.bodies import BodyModel, Parameter, RigidBody, SegmentedBody
-from railride.bodies.segments import k_theta
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.linear import LinearModel, linearise, output_rows
@@ -29,6 +28,7 @@ from railride.plausibility import doubts
 from railride.running_gear import (
     RunningGear,
     bogie_heave,
+    bogie_pitch,
     primary_deflection,
     secondary_deflection,
 )
@@ -103,12 +103,27 @@ class VehicleModel:
 
     @cached_property
     def _values(self) -> ParameterValues:
-        return ParameterValues(self.body, self.running_gear)
+        return ParameterValues(self.body, self.running_gear, self.lagrangian)
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """Every independent parameter with its value: the body's, then the bogies'."""
         return self._values.independent
+
+    def symbol_of(self, name: str) -> str:
+        """The symbol behind the name of a parameter: itself, or its key in parameter files.
+
+        Raises
+        ------
+        InputError : a name that the model does not have, with those it has and the near ones.
+        """
+        return self._values.symbol_of(name)
+
+    @property
+    def meanings(self) -> dict[str, tuple[str, str]]:
+        """What parameters mean, and their units, by symbol; those that are defined are left out."""
+        found = {p.symbol.name: (p.meaning, p.unit) for p in self.parameters}
+        return found | {s.name: said for s, said in self.body.followers.items()}
 
     def values(self, **changes: ArrayLike) -> dict[str, Array]:
         """Every parameter's value by symbol, with those in ``changes`` put in their place.
@@ -126,16 +141,11 @@ class VehicleModel:
 
     def free_body_stiffness(self, **changes: ArrayLike) -> Array:
         """K of the empty car body alone, free in space: shape (..., n, n) in its coordinates."""
-        return self._values.free_body_stiffness(self.values(**changes))
+        return self.body.free_matrices(self.values(**changes))["K"]
 
     def bending_frequencies(self, **changes: ArrayLike) -> Array:
         """Free-free bending frequencies of the empty body in Hz, ascending; none if it is rigid."""
-        if self.body.segments == 1:
-            return np.zeros(0)
-        values = self.values(**changes)
-        stiffness = values[k_theta.name][..., np.newaxis]
-        unit = self._values.unit_bending(values)
-        return np.asarray(np.sqrt(unit * stiffness) / (2 * np.pi))
+        return self.body.bending_frequencies(self.values(**changes))
 
     @cached_property
     def _numeric(self) -> MatrixFunction:
@@ -152,7 +162,8 @@ class VehicleModel:
         (3, 7, 7)
         """
         values = self.values(**changes)
-        self._refuse_moved_joints(values)
+        for b in self.running_gear.bogies:
+            self.body.check_moved(self.running_gear.place(b), values)
         matrices = Matrices(**self._numeric(values), lift=self.lift)
         self._refuse_untrustworthy(matrices)
         return matrices
@@ -165,6 +176,17 @@ class VehicleModel:
         return np.array([
             float(body.get(q, q in heaves)) for q in self.lagrangian.coordinates
         ])  # fmt: skip
+
+    def pitch(self, **changes: ArrayLike) -> Array:
+        """The coordinates of a small turn of the whole vehicle about the body's middle, per rad.
+
+        Shape (..., n). Track, bogies and body turned by one angle: w_j is the wheelset's place.
+        """
+        turn = dict.fromkeys(map(bogie_pitch, self.running_gear.bogies), sp.S.One)
+        turn |= {bogie_heave(b): self.running_gear.place(b).x for b in self.running_gear.bogies}
+        turn |= self.body.pitch
+        column = sp.Matrix([turn.get(q, sp.S.Zero) for q in self.lagrangian.coordinates])
+        return MatrixFunction({"turn": column})(self.values(**changes))["turn"][..., 0]
 
     def floor(self, at: float = 0.0, reading: str = "smooth", derivative: int = 2) -> Output:
         """Displacement (derivative 0), velocity (1) or acceleration (2) of the floor at a point.
@@ -222,27 +244,13 @@ class VehicleModel:
         if chosen not in self._rows:
             named = {f"{k}: {output.name}": output.expression for k, output in enumerate(chosen)}
             self._rows[chosen] = MatrixFunction(output_rows(self.lagrangian, named))
-        return self._rows[chosen](self.values(**changes))
+        rows, values = self._rows[chosen], self.values(**changes)
+        left = [symbol for symbol in rows.symbols if symbol.name not in values]
+        return rows(values | self.body.dependent_values(values, left))
 
     @cached_property
     def _rows(self) -> dict[tuple[Output, ...], MatrixFunction]:
         return {}
-
-    def _refuse_moved_joints(self, values: Mapping[str, Array]) -> None:
-        """The heights that the bogies follow were taken on given segments: hold to them."""
-        for b, bogie in enumerate(self.vehicle.bogies, start=1):
-            place = self.running_gear.place_value(b, values)
-            if not isinstance(self.body, SegmentedBody):
-                self.body.check_point(float(np.max(np.abs(place))))
-                continue
-            ahead = np.asarray((0.5 - place / values["L"]) * self.body.segments)
-            here = self.body.segment_at(bogie.position)
-            if (ahead < here - 1 - 1e-9).any() or (ahead > here + 1e-9).any():
-                raise InputError(
-                    f"bogie {b}: found it on another segment than segment {here}, on which the "
-                    "model was derived; expected positions that stay there (derive the changed "
-                    "vehicle)"
-                )
 
     def _refuse_untrustworthy(self, matrices: Matrices) -> None:
         """Refuse a vehicle that a motion leaves without a spring, or that rounding would decide."""

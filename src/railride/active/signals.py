@@ -25,7 +25,7 @@ def suspension_signals(model: VehicleModel) -> dict[str, Output]:
     """
     gear, found = model.running_gear, {}
     for b, bogie in zip(gear.bogies, model.vehicle.bogies, strict=True):
-        height = model.body.height(gear.place(b), bogie.position)
+        height = model.body.height(gear.place(b))
         velocity, z, s = rate(height), bogie_heave(b), secondary_deflection(b)
         stroke = s if bogie.secondary_damper_stiffness is None else secondary_stroke(b)
         for name, expression, unit, latex in (

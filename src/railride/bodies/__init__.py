@@ -1,8 +1,8 @@
 """Car bodies: the ways to give a coach its flexibility, each by its energies."""
 
-from railride.bodies.base import BodyModel, Parameter
+from railride.bodies.base import BodyModel, Parameter, Place
 from railride.bodies.body_modes import BodyModes
 from railride.bodies.rigid import RigidBody
 from railride.bodies.segments import SegmentedBody
 
-__all__ = ["BodyModel", "BodyModes", "Parameter", "RigidBody", "SegmentedBody"]
+__all__ = ["BodyModel", "BodyModes", "Parameter", "Place", "RigidBody", "SegmentedBody"]

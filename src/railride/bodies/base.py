@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
+from railride.linear import linearise
+from railride.numeric import Array, MatrixFunction, symmetric_eigenvalues
 from railride.parameters import CarBody, Load
 
 FLOORS = ("smooth", "polygon")
@@ -28,6 +30,25 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class Place:
+    """A point of the body, ``at`` m forward of its middle.
+
+    name : for messages. index : for symbols that belong to it. x : its place as an expression, a
+    number, or a symbol or its negative.
+    """
+
+    name: str
+    index: str
+    x: sp.Expr
+    at: float
+
+    def value(self, values: Mapping[str, Array]) -> Array:
+        """x at the values of the parameters."""
+        factor, symbol = self.x.as_coeff_Mul()
+        return np.asarray(float(factor) * (values[symbol.name] if symbol.is_Symbol else 1.0))
+
+
+@dataclass(frozen=True)
 class BodyModel(ABC):
     """A free car body as energies in its own coordinates; x in m forward of its middle."""
 
@@ -40,8 +61,23 @@ class BodyModel(ABC):
 
     @property
     @abstractmethod
-    def segments(self) -> int:
-        """The number N of rigid segments."""
+    def title(self) -> str:
+        """What the body is, in a few words: "4 segments"."""
+
+    @property
+    @abstractmethod
+    def phrase(self) -> str:
+        """What the body is, as a phrase: "a car body of 4 rigid segments"."""
+
+    @property
+    def segments(self) -> int | None:
+        """The number N of rigid segments; None of a body that is not made of them."""
+        return None
+
+    @property
+    def mode_count(self) -> int | None:
+        """The number of bending modes of a body that is made of them, else None."""
+        return None
 
     @property
     @abstractmethod
@@ -59,25 +95,54 @@ class BodyModel(ABC):
         return {}
 
     @property
+    def followers(self) -> Mapping[sp.Symbol, tuple[str, str]]:
+        """Dependent parameters without a definition, and their meaning and unit.
+
+        They may be given in place of what they follow from, else :meth:`dependent_values` knows.
+        """
+        return {}
+
+    def dependent_values(
+        self, values: Mapping[str, Array], wanted: Iterable[sp.Symbol]
+    ) -> dict[str, Array]:
+        """Values of those of the ``wanted`` symbols that follow from the values, by name."""
+        del values, wanted
+        return {}
+
+    @property
     @abstractmethod
     def lift(self) -> Mapping[Coordinate, int]:
         """The coordinates of a uniform lift by 1 m."""
+
+    @property
+    @abstractmethod
+    def pitch(self) -> Mapping[Coordinate, sp.Expr]:
+        """The coordinates of a small turn by 1 rad about the body's middle, per rad."""
+
+    @property
+    @abstractmethod
+    def nodes(self) -> Array:
+        """Points that a drawing of the floor joins by straight lines: x, m, from the front."""
 
     @abstractmethod
     def load_energy(self, mass: sp.Symbol, load: Load) -> sp.Expr:
         """Kinetic energy of a load: ``mass`` spread evenly from its rear to its front."""
 
     @abstractmethod
-    def height(self, x: sp.Expr, at: float) -> sp.Expr:
-        """Height of a point of the body's structure; x in m, an expression of value ``at``."""
+    def height(self, place: Place) -> sp.Expr:
+        """Height of a point of the body's structure."""
 
     @abstractmethod
     def floor(self, at: float, reading: str) -> sp.Expr:
         """Height of the floor at ``at`` (m), read as ``reading``, one of :data:`FLOORS`."""
 
-    def check_values(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+    def check_values(self, values: Mapping[str, Array]) -> None:
         """Raise :class:`InputError` where parameters, changed ones too, need an impossible mass."""
         del values
+
+    def check_moved(self, place: Place, values: Mapping[str, Array]) -> None:
+        """Raise :class:`InputError` unless a place keeps to where its height was taken."""
+        self.check_point(float(np.max(np.abs(place.value(values)))))
 
     def check_point(self, at: float) -> None:
         """Raise :class:`InputError` unless the point is on the body."""
@@ -90,3 +155,18 @@ class BodyModel(ABC):
         """Raise :class:`InputError` unless it is a way to read the floor."""
         if reading not in FLOORS:
             raise InputError(f"floor: found {reading!r}; expected one of {', '.join(FLOORS)}")
+
+    @cached_property
+    def _free(self) -> MatrixFunction:
+        linear = linearise(self.energies)
+        return MatrixFunction({"M": linear.M, "K": linear.K})
+
+    def free_matrices(self, values: Mapping[str, Array]) -> dict[str, Array]:
+        """M and K of the empty body alone, free in space: (..., n, n) in its own coordinates."""
+        return self._free(values)
+
+    def bending_frequencies(self, values: Mapping[str, Array]) -> Array:
+        """Natural frequencies of the free body other than zero, Hz, ascending: (..., n - 2)."""
+        A = self.free_matrices(values)
+        squares = symmetric_eigenvalues(A["M"], A["K"])[..., 2:]
+        return np.asarray(np.sqrt(np.maximum(squares, 0)) / (2 * np.pi))

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
+import numpy as np
 import sympy as sp
 from sympy import cos, sin
 
-from railride.bodies.base import BodyModel, Parameter
+from railride.bodies.base import BodyModel, Parameter, Place
 from railride.lagrange import Coordinate, Lagrangian, rate
+from railride.numeric import Array
 from railride.parameters import Load
 
 m_c, I_c, e_c = sp.Symbol("m_c", positive=True), sp.Symbol("I_c", positive=True), sp.Symbol("e_c")
@@ -25,6 +27,8 @@ class RigidBody(BodyModel):
     """
 
     kind = "rigid"
+    title = "rigid body"
+    phrase = "a rigid car body"
     segments = 1
 
     @property
@@ -55,6 +59,16 @@ class RigidBody(BodyModel):
         """A uniform lift is heave alone."""
         return {z_c: 1}
 
+    @property
+    def pitch(self) -> Mapping[Coordinate, sp.Expr]:
+        """A turn about the middle lifts a mass centre ahead of it."""
+        return {z_c: self.offset, theta_c: sp.S.One}
+
+    @property
+    def nodes(self) -> Array:
+        """The two ends."""
+        return np.array([0.5, -0.5]) * self.body.length
+
     def load_energy(self, mass: sp.Symbol, load: Load) -> sp.Expr:
         """T of a rod: its middle x_p forward of the body's, moving with (-x_p θ̇ sin θ, ż)."""
         half = self.body.length / 2
@@ -64,10 +78,10 @@ class RigidBody(BodyModel):
         v_x, v_z = (rate(u) for u in (x_p * cos(theta_c), self._along(x_p)))
         return mass * (v_x**2 + v_z**2) / 2 + mass * length**2 / 12 * theta_c.dot**2 / 2
 
-    def height(self, x: sp.Expr, at: float) -> sp.Expr:
+    def height(self, place: Place) -> sp.Expr:
         """z(x) = z_c + (x - e_c) sin θ_c."""
-        self.check_point(at)
-        return self._along(x)
+        self.check_point(place.at)
+        return self._along(place.x)
 
     def _along(self, x: sp.Expr) -> sp.Expr:
         return z_c + (x - self.offset) * sin(theta_c)
@@ -75,4 +89,5 @@ class RigidBody(BodyModel):
     def floor(self, at: float, reading: str) -> sp.Expr:
         """The floor of a rigid body is the body, however it is read."""
         self.check_reading(reading)
-        return self.height(sp.Float(at), at)
+        self.check_point(at)
+        return self._along(sp.Float(at))

@@ -11,20 +11,20 @@ The body's middle is held in x, and x_i, the place of the segment's middle, shor
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import floor
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from sympy import Rational, asin, cos, sin
 
-from railride.bodies.base import BodyModel, Parameter
+from railride.bodies.base import BodyModel, Parameter, Place
 from railride.bodies.rigid import I_c, e_c, m_c
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
+from railride.numeric import Array
 from railride.parameters import Load
 
 L, k_theta, EI = sp.symbols("L k_theta EI", positive=True)
@@ -88,6 +88,16 @@ class SegmentedBody(BodyModel):
     def segments(self) -> int:
         """N."""
         return self.number
+
+    @property
+    def title(self) -> str:
+        """How many segments."""
+        return f"{self.number} segments"
+
+    @property
+    def phrase(self) -> str:
+        """How many segments, in full."""
+        return f"a car body of {self.number} rigid segments"
 
     @property
     def stiffness_given(self) -> str:
@@ -227,6 +237,42 @@ class SegmentedBody(BodyModel):
         """A uniform lift raises every node alike."""
         return {z(i): 1 for i in range(self.number + 1)}
 
+    @property
+    def pitch(self) -> Mapping[Coordinate, sp.Expr]:
+        """The places of the nodes."""
+        N = self.number
+        return {z(i): Rational(N - 2 * i, 2 * N) * L for i in range(N + 1)}
+
+    @property
+    def nodes(self) -> Array:
+        """Front end, hinges, rear end."""
+        return np.linspace(0.5, -0.5, self.number + 1) * self.body.length
+
+    @property
+    def followers(self) -> Mapping[sp.Symbol, tuple[str, str]]:
+        """k_θ and c_θ, unless they are given."""
+        found = {k_theta: ("joint stiffness", "N m/rad"), c_theta: ("joint damping", "N m s/rad")}
+        known = {p.symbol for p in self.parameters}
+        return {symbol: said for symbol, said in found.items() if symbol not in known}
+
+    def dependent_values(
+        self, values: Mapping[str, Array], wanted: Iterable[sp.Symbol]
+    ) -> dict[str, Array]:
+        """k_θ = (2π f_1)²/λ_1 and c_θ = 2 ζ k_θ/ω_1, λ_1 = ω_1²/k_θ of the free body.
+
+        Source for c_θ: a joint moment k_θ γ + c_θ γ̇ damps the first mode by c_θ ω_1/(2 k_θ).
+        """
+        left, found = set(wanted) & {k_theta, c_theta}, dict(values)
+        if left:
+            unit = self.bending_frequencies({**values, k_theta.name: np.array(1.0)})[..., 0]
+        if k_theta in left:
+            found[k_theta.name] = (values[f_bending.name] / unit) ** 2
+        if c_theta in left:
+            stiffness = found[k_theta.name]
+            omega = 2 * np.pi * unit * np.sqrt(stiffness)
+            found[c_theta.name] = 2 * values[zeta_bending.name] * stiffness / omega
+        return {s.name: found[s.name] for s in (k_theta, c_theta) if s in left}
+
     def segment_at(self, at: float) -> int:
         """The number of the segment on which the point lies; at a hinge the one ahead of it."""
         self.check_point(at)
@@ -236,10 +282,12 @@ class SegmentedBody(BodyModel):
             return max(nearest, 1)
         return min(max(floor(behind_front) + 1, 1), self.number)
 
-    def height(self, x: sp.Expr, at: float) -> sp.Expr:
+    def height(self, place: Place) -> sp.Expr:
         """z = (1 - ξ) z_{i-1} + ξ z_i along the segment, ξ from its front node."""
-        i = self.segment_at(at)
-        xi = Rational(self.number, 2) - (i - 1) - self.number * x / L
+        return self._polygon(place.x, self.segment_at(place.at))
+
+    def _polygon(self, at: sp.Expr, i: int) -> sp.Expr:
+        xi = Rational(self.number, 2) - (i - 1) - self.number * at / L
         return (1 - xi) * z(i - 1) + xi * z(i)
 
     def floor(self, at: float, reading: str) -> sp.Expr:
@@ -251,10 +299,10 @@ class SegmentedBody(BodyModel):
         with κ ℓ = θ_ahead - θ_behind at a hinge, linear between hinges, zero at the free ends.
         """
         self.check_reading(reading)
-        polygon = self.height(sp.Float(at), at)
+        i, N = self.segment_at(at), self.number
+        polygon = self._polygon(sp.Float(at), i)
         if reading == "polygon":
             return polygon
-        i, N = self.segment_at(at), self.number
         ell = L / N
         xi = at / ell - Rational(N + 1 - 2 * i, 2)  # forward of the segment's middle
         bend = [theta(j) - theta(j + 1) if 1 <= j < N else sp.S.Zero for j in (i - 1, i)]
@@ -262,7 +310,18 @@ class SegmentedBody(BodyModel):
         kappa_ell = (half + xi) * bend[0] + (half - xi) * bend[1]
         return polygon + kappa_ell * ell * (xi**2 / 2 - Rational(1, 24))
 
-    def check_values(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+    def check_moved(self, place: Place, values: Mapping[str, Array]) -> None:
+        """Refuse a place on another segment than the one whose height was taken."""
+        ahead = np.asarray((0.5 - place.value(values) / values["L"]) * self.number)
+        here = self.segment_at(place.at)
+        if (ahead < here - 1 - 1e-9).any() or (ahead > here + 1e-9).any():
+            raise InputError(
+                f"{place.name}: found it on another segment than segment {here}, on which the "
+                "model was derived; expected positions that stay there (derive the changed "
+                "vehicle)"
+            )
+
+    def check_values(self, values: Mapping[str, Array]) -> None:
         """Refuse a mass per length or an inertia of the segments that is not positive."""
         if self.inertia == "graded":
             self._refuse_negative_mass(values)
@@ -273,7 +332,7 @@ class SegmentedBody(BodyModel):
                 '"graded", or fewer segments)'
             )
 
-    def _refuse_negative_mass(self, values: Mapping[str, NDArray[np.float64]]) -> None:
+    def _refuse_negative_mass(self, values: Mapping[str, Array]) -> None:
         """μ(x) is lowest at an end, or where it has its minimum between them."""
         a, b, half = values["mu_0"], values["mu_2"], values["L"] / 2
         d = values.get("mu_1", np.zeros_like(a))
@@ -304,7 +363,7 @@ def _kinetic(i: int, m: sp.Expr, S: sp.Expr, J: sp.Expr) -> sp.Expr:
     return T + S * omega * (v_z * cos(theta(i)) - v_x * sin(theta(i))) if S != 0 else T
 
 
-def _values(array: NDArray[np.float64]) -> str:
+def _values(array: Array) -> str:
     """A value, or the range of several."""
     low, high = float(np.min(array)), float(np.max(array))
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"

@@ -155,10 +155,9 @@ def _rows(found: Sequence[BodeResponse]) -> list[dict[str, Any]]:
 def _table(found: Sequence[BodeResponse]) -> str:
     """Every frequency if they are few, else the peaks and dips; the geometric zeros below."""
     first = found[0]
-    body = "rigid body" if first.segments == 1 else f"{first.segments} segments"
     f = first.frequency
     listed = f.size <= LISTED
-    title = (f"{first.vehicle} ({body}), {first.floor} floor: floor acceleration per track "
+    title = (f"{first.vehicle} ({first.body}), {first.floor} floor: floor acceleration per track "
              "elevation under the leading wheelset")  # fmt: skip
     if not listed:
         title += f"\nPeaks and dips among {f.size} frequencies, {f[0]:.6g} to {f[-1]:.6g} Hz"

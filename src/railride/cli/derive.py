@@ -117,10 +117,12 @@ def _as_json(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> dict[
     values, numbers = model.values(), model.matrices()
     string = cache(str)  # most entries stand in a matrix several times
     document = {
+        "body": model.body.kind,
         "segments": model.body.segments,
+        "body_modes": model.body.mode_count,
         "coordinates": [q.name for q in linear.coordinates],
         "parameters": {name: float(value) for name, value in values.items()},
-        "joint_stiffness": float(values["k_theta"]) if model.body.segments > 1 else None,
+        "joint_stiffness": float(values["k_theta"]) if "k_theta" in values else None,
         **{name: getattr(numbers, name) for name in SYMBOLIC},
         "symbolic": {
             name: [[string(e) for e in row] for row in linear.matrices[name].tolist()]
@@ -153,17 +155,15 @@ def _as_table(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> str:
     from railride import modal, text
 
     values = model.values()
-    units = {p.symbol.name: (p.unit, p.meaning) for p in model.parameters}
-    units |= {"k_theta": ("N m/rad", "joint stiffness"), "c_theta": ("N m s/rad", "joint damping")}
-    dependent = ("", "follows from the others")
+    meanings, dependent = model.meanings, ("follows from the others", "")
     columns = [("symbol", ""), ("value", ".6g"), ("unit", ""), ("meaning", "")]
     rows = [
-        (text.symbol(_symbol(name)), float(value), *units.get(name, dependent))
+        (text.symbol(_symbol(name)), float(value), *reversed(meanings.get(name, dependent)))
         for name, value in values.items()
     ]
     degrees = f"{len(linear.coordinates)} degrees of freedom"
     parts = [
-        f"{model.vehicle.name}: {_count(model.body.segments)}, {degrees}",
+        f"{model.vehicle.name}: {model.body.phrase}, {degrees}",
         output.table_text("Parameters", columns, rows).rstrip(),
         "Energies\n\n" + text.energies(model.lagrangian),
     ]
@@ -173,10 +173,6 @@ def _as_table(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> str:
     found = modal.modes(model), modal.undamped_frequencies(model.matrices())
     parts.append(as_table(*found))
     return "\n\n".join(parts)
-
-
-def _count(segments: int) -> str:
-    return "a rigid car body" if segments == 1 else f"a car body of {segments} rigid segments"
 
 
 def _symbol(name: str) -> Any:

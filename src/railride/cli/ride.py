@@ -212,6 +212,7 @@ def _row(case: Case) -> dict[str, Any]:
         "position_m": case.position,
         "body": case.body,
         "segments": case.segments,
+        "modes": case.modes,
         "a_rms": case.a_rms,
         "a_wrms": case.a_wrms,
         "a_wrms_exact": case.a_wrms_exact,
@@ -244,11 +245,9 @@ def _table(result: RideResult) -> str:
          c.mtvv, c.vdv, c.crest_factor, c.wz, c.level)
         for c in result.cases
     ]  # fmt: skip
-    first = result.cases[0]
-    body = "rigid body" if first.segments == 1 else f"{first.segments} segments"
-    title = (f"{result.vehicle} ({body}) over {result.track}, {result.floor} floor, "
+    title = (f"{result.vehicle} ({result.body}) over {result.track}, {result.floor} floor, "
              f"{result.weighting} weighted")  # fmt: skip
-    scales = [*columns[:2], *((scale, "") for scale in first.levels)]
+    scales = [*columns[:2], *((scale, "") for scale in result.cases[0].levels)]
     classes = [
         (kmh(c.speed), c.position, *(" or ".join(found) for found in c.levels.values()))
         for c in result.cases

@@ -146,8 +146,7 @@ def _mark_modes(top: Axes, others: Sequence[Axes], response: BodeResponse) -> No
 
 
 def _facts(r: BodeResponse) -> tuple[str, ...]:
-    body = "rigid body" if r.segments == 1 else f"N = {r.segments}"
-    return (r.vehicle, body, f"{r.floor} floor", f"{3.6 * r.speed:.6g} km/h",
+    return (r.vehicle, r.body, f"{r.floor} floor", f"{3.6 * r.speed:.6g} km/h",
             f"x = {r.position:g} m")  # fmt: skip
 
 

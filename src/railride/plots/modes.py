@@ -28,27 +28,27 @@ _RAIL, _BOGIE, _FLOOR, _HEIGHT = 0.0, 1.6, 3.8, 1.6
 class ModeShape:
     """Where the floor's nodes and the bogies go in a mode; the largest displacement is 1.
 
-    nodes : x, m, shape (N + 1,), from the front. floor : displacement there. heave, pitch : of each
-    bogie, shape (bogies,), the pitch per m.
+    nodes : x, m, shape (N + 1,), from the front; jointed : they are those of segments.
+    floor : displacement there. heave, pitch : of each bogie, shape (bogies,), the pitch per m.
     """
 
     nodes: FloatArray
     floor: FloatArray
     heave: FloatArray
     pitch: FloatArray
+    jointed: bool = True
 
 
 def mode_shape(model: VehicleModel, mode: Mode, turned: complex = 1.0) -> ModeShape:
     """Vertical displacements Re(d e/d_max): at e = 1 the instant when the largest is largest.
 
-    d = Y φ with the model's own rows Y of displacement, the polygon at its N + 1 nodes, and
+    d = Y φ with the model's own rows Y of displacement, the polygon at its nodes, and
     z_b + θ_b l on the bogies, l forward of the bogie's centre, above the wheelsets.
 
     turned : e, by which the mode has turned and decayed since, e^{λt}.
     """
     vehicle, bogies = model.vehicle, len(model.vehicle.bogies)
-    half = vehicle.body.length / 2
-    nodes = np.linspace(half, -half, model.body.segments + 1)
+    nodes = model.body.nodes
     rows = model.output_rows([model.floor(x, "polygon", 0) for x in nodes.tolist()])["d"]
     floor = rows @ mode.shape
     # The strokes of dampers on elastic mounts come after the bogies.
@@ -59,8 +59,8 @@ def mode_shape(model: VehicleModel, mode: Mode, turned: complex = 1.0) -> ModeSh
     every = np.concatenate([floor, *above])
     size = np.abs(every)
     largest = every[np.argmax(size > (1 - 1e-6) * size.max())]  # of equals the foremost: nose up
-    scaled = (np.real(part * (turned / largest)) for part in (floor, heave, pitch))
-    return ModeShape(nodes, *scaled)
+    floor, heave, pitch = (np.real(part * (turned / largest)) for part in (floor, heave, pitch))
+    return ModeShape(nodes, floor, heave, pitch, model.body.segments is not None)
 
 
 def plot_modes(
@@ -116,8 +116,10 @@ def draw(ax: Axes, vehicle: Vehicle, shape: ModeShape) -> None:
     floor = _FLOOR + shape.floor
     ax.plot(shape.nodes[[0, -1]], [_FLOOR, _FLOOR], **rest, label="at rest")
     ax.fill_between(shape.nodes, floor, floor + _HEIGHT, color=canvas.BODY, alpha=0.15, linewidth=0)
-    ax.plot(shape.nodes, floor, color=canvas.BODY, linewidth=1.6, marker="o", markersize=3,
-            label="car body, nodes of its segments")  # fmt: skip
+    joints: dict[str, Any] = {"label": "car body"}
+    if shape.jointed:
+        joints = {"label": "car body, nodes of its segments", "marker": "o", "markersize": 3}
+    ax.plot(shape.nodes, floor, color=canvas.BODY, linewidth=1.6, **joints)
     for b, bogie in enumerate(vehicle.bogies):
         x, heave, pitch = bogie.position, shape.heave[b], shape.pitch[b]
         ends = np.array([min(0.0, *bogie.wheelsets), max(0.0, *bogie.wheelsets)])

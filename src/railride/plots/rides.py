@@ -58,10 +58,8 @@ def plot_ride(result: RideResult) -> Figure:
     pairs = figure.subplots(rows, 2, squeeze=False, sharey="row", width_ratios=(2, 1))
     for case, (left, right) in zip(result.cases, pairs, strict=True):
         _draw_case(case, left, right)
-    first = result.cases[0]
-    body = "rigid body" if first.segments == 1 else f"{first.segments} segments"
     figure.suptitle(
-        f"{result.vehicle} ({body}) over {result.track}, {result.floor} floor, "
+        f"{result.vehicle} ({result.body}) over {result.track}, {result.floor} floor, "
         f"{result.weighting} weighted"
     )
     return figure
