@@ -14,12 +14,11 @@ from typing import Any
 
 from railride.body_profile import BodyProfile, PointMass, check_profile
 from railride.car_body import CarBody, check_body, rigid_values
-from railride.errors import Faults, RowFaults
+from railride.errors import Faults
 from railride.quantities import quantity_fields
-from railride.record_tables import note_all_missing, read_values, written
-from railride.tables import Column, NumberTable, read_table
-from railride.toml_tables import Table, expected_sign
-from railride.units import QuantityError, same_dimension, to_si
+from railride.record_tables import note_all_missing, read_column, read_values, written
+from railride.tables import NumberTable, read_table
+from railride.toml_tables import Table
 
 
 def read_body(top: Table, folder: Path, faults: Faults) -> dict[str, Any]:
@@ -75,7 +74,8 @@ def _read_columns(table: NumberTable) -> dict[str, tuple[float, ...]]:
         if len(found) > 1:
             faults.add("header", f"{item.name} twice", "one column of each")
         elif found:
-            values[item.name] = _read_column(table, found[0], item.metadata, faults)
+            unit, sign = item.metadata["unit"], item.metadata["sign"]
+            values[item.name] = read_column(table, found[0], unit, sign, faults)
         elif item.default is not None:
             unit = item.metadata["unit"]
             faults.add("header", f"no column {item.name}", f"one headed {item.name} [{unit}]")
@@ -85,29 +85,6 @@ def _read_columns(table: NumberTable) -> dict[str, tuple[float, ...]]:
             faults.add(f"column {column.heading!r}", "a name that is not known", f"one of {names}")
     faults.raise_if_any()
     return values
-
-
-def _read_column(
-    table: NumberTable, column: Column, metadata: Any, faults: Faults
-) -> tuple[float, ...]:
-    """Numbers of one column, SI."""
-    unit, where = metadata["unit"], f"column {column.heading!r}"
-    try:
-        if not same_dimension(column.unit, unit):
-            given = f"the unit {column.unit!r}" if column.unit else "no unit"
-            faults.add(where, given, f"one such as [{unit}]")
-            return ()
-    except QuantityError as error:
-        faults.add(where, error.found, error.expected, error.mend)
-        return ()
-    rows = RowFaults(faults)
-    bad = set(column.bad.tolist())
-    for i, value in enumerate(column.numbers.tolist()):
-        expected = expected_sign(None if i in bad else value, metadata["sign"])
-        if expected:
-            rows.add(table.row(i), column.heading, column.shown(i), expected)
-    rows.close()
-    return tuple(to_si(column.numbers.astype(float), column.unit).tolist())
 
 
 def _read_point(table: Table, faults: Faults) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Records of quantities as tables of a TOML file: read with every fault noted, and written."""
+"""Records of quantities as tables of a TOML file, and columns of them from tables of numbers."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from dataclasses import MISSING, Field
 from typing import TYPE_CHECKING, Any
 
-from railride.errors import Faults
+from railride.errors import Faults, RowFaults
 from railride.quantities import EITHER, LIST
-from railride.toml_tables import Table, toml_text
+from railride.tables import Column, NumberTable
+from railride.toml_tables import Table, expected_sign, toml_text
+from railride.units import QuantityError, same_dimension, to_si
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -59,3 +61,43 @@ def written(record: DataclassInstance, items: Sequence[Field[Any]]) -> list[str]
             text = toml_text(f"{value!r} {unit}") if unit else repr(value)
         lines.append(f"{item.name} = {text}")
     return lines
+
+
+def read_column(
+    table: NumberTable,
+    column: Column,
+    unit: str,
+    sign: str,
+    faults: Faults,
+    rows: Sequence[int] | None = None,
+) -> tuple[float, ...]:
+    """Numbers of a column, SI, whose heading must name a unit of the kind of ``unit``.
+
+    sign: "> 0", ">= 0", or "" for any. rows: those that are read, 0 first; None: all.
+    """
+    chosen = range(table.n) if rows is None else rows
+    factor = unit_factor(column.unit, unit, f"column {column.heading!r}", faults)
+    notes, bad, numbers = RowFaults(faults), set(column.bad.tolist()), []
+    for i in chosen:
+        value = float(column.numbers[i])
+        expected = expected_sign(None if i in bad else value, sign)
+        if expected:
+            notes.add(table.row(i), column.heading, column.shown(i), expected)
+        numbers.append(factor * value)
+    notes.close()
+    return tuple(numbers)
+
+
+def unit_factor(given: str, unit: str, where: str, faults: Faults) -> float:
+    """Factor to SI of a unit that must be of the kind of ``unit``; else 1, with a fault noted.
+
+    where: what has it, for the message.
+    """
+    try:
+        if same_dimension(given, unit):
+            return to_si(1.0, given)
+        found = f"the unit {given!r}" if given else "no unit"
+        faults.add(where, found, f"one such as [{unit}]" if unit else "none")
+    except QuantityError as error:
+        faults.add(where, error.found, error.expected, error.mend)
+    return 1.0
