@@ -355,6 +355,14 @@ def test_pictures_show_every_design():
     travel = table.loc["real", ["travel r.m.s. bogie 1 [m]", "travel r.m.s. bogie 2 [m]"]].max()
     np.testing.assert_allclose(points.get_lines()[2].get_xdata(), 1e3 * travel)
     assert points.get_ylabel() == "a_wrms at 0 m [m/s²]"
+    many = pd.concat(
+        [table.iloc[:1], *[table.iloc[1:2].rename({"ideal": str(k)}) for k in range(15)]]
+    )
+    looks = {(line.get_color(), line.get_marker()) for line in plot_loops(many).get_lines()}
+    assert len(looks) == 16
+    spectra = pd.DataFrame({str(k): spectra["ideal"] for k in range(16)}, index=spectra.index)
+    looks = {(line.get_color(), line.get_linestyle()) for line in plot_loop_spectra(spectra).lines}
+    assert len(looks) == 16
     with pytest.raises(InputError, match="table: found the columns none"):
         plot_loops(pd.DataFrame())
     with pytest.raises(InputError, match="spectra: found none"):

@@ -176,6 +176,41 @@ def test_several_bodies_in_one_picture(tmp_path):
     save(plot_bode(bode(paper_coach(1), [V], [1.0, 3.0], derivative=0)), tmp_path / "two.png")
 
 
+def test_modes_of_every_body_are_named():
+    """Of a rigid body beside bending ones, the bending peak has its name."""
+    found = [bode(paper_coach(n), [V], np.geomspace(0.2, 40, 50))[0] for n in (1, 2, 4, 8)]
+    top, above, _ = plot_bode(found).axes
+    named = " ".join(text.get_text().replace("\n", " ") for text in top.texts)
+    for label in ("heave", "pitch", "bogie heave", "bending 1", "bogie pitch", "bending 2"):
+        assert label in named
+    dotted = {line.get_xdata()[0] for line in above.lines if line.get_linestyle() == ":"
+              and np.ptp(line.get_xdata()) == 0}  # fmt: skip
+    for r in found:
+        assert {m.frequency_hz for m in r.modes
+                if m.eigenvalue.imag > 0 and m.frequency_hz < 40} <= dotted  # fmt: skip
+
+
+def test_eight_and_more_lines_look_different():
+    found = bode(paper_coach(1), np.linspace(20.0, 80.0, 28), [1.0, 2.0, 3.0])
+    _, above, below = plot_bode(found).axes
+    for ax in (above, below):
+        looks = {(line.get_color(), line.get_linestyle()) for line in ax.lines[:28]}
+        assert len(looks) == 28
+
+
+def test_zeros_that_all_have_are_grey_and_others_of_their_lines_colour():
+    def colours(found):
+        _, above, _ = plot_bode(found).axes
+        marks = [line for line in above.lines if line.get_marker() in {"v", "D"}
+                 and len(line.get_xdata())]  # fmt: skip
+        return {mark.get_markeredgecolor() for mark in marks}
+
+    f = np.geomspace(0.2, 40, 50)
+    assert colours([bode(paper_coach(n), [V], f)[0] for n in (1, 2)]) == {"#4D4D4D"}
+    assert colours(bode(paper_coach(1), [40.0, V], f)) == {"#0072B2", "#D55E00"}
+    assert colours(bode(paper_coach(1), [V], f, at=[0.0, 4.0])) == {"#0072B2", "#4D4D4D"}
+
+
 def test_pictures_of_nothing_or_of_two_units_are_refused():
     with pytest.raises(InputError, match="found none"):
         plot_bode([])

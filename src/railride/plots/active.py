@@ -13,11 +13,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-# The passive vehicle in grey, then lines to be told apart by colour and in grey print. Source: as
-# in railride.plots.canvas.
-_LINES = (("#4D4D4D", "-"), ("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-."),
-          ("#CC79A7", ":"), ("#56B4E9", "--"), ("#E69F00", "-."))  # fmt: skip
-_MARKS = "osD^vPX"
 _DEEPEST = 1e-4  # of the largest value: what lies lower is a zero
 _COMFORT, _TRAVEL = "a_wrms at ", "travel r.m.s. bogie "
 
@@ -36,10 +31,9 @@ def plot_loop_spectra(spectra: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     ax = canvas.axes_or_new(ax, 7.5, 4.2)
     frequency = spectra.index.to_numpy(dtype=float)
     for k, name in enumerate(spectra.columns):
-        colour, style = _LINES[k % len(_LINES)]
+        look = canvas.line_look(k - 1) if k else {"color": canvas.TRACK}  # the passive one in grey
         values = np.sqrt(spectra[name].to_numpy(dtype=float))
-        ax.plot(*canvas.outline(frequency, values), color=colour, linestyle=style, linewidth=1.3,
-                label=str(name))  # fmt: skip
+        ax.plot(*canvas.outline(frequency, values), **look, linewidth=1.3, label=str(name))
     largest, least = (float(np.sqrt(x)) for x in (spectra.max().max(), spectra.min().min()))
     ax.set_xscale("log")
     ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
@@ -71,8 +65,9 @@ def plot_loops(table: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     ax = canvas.axes_or_new(ax, 5.5, 4.2)
     most = 1e3 * table[travel].max(axis=1)
     for k, name in enumerate(table.index):
-        ax.plot(most[name], table.loc[name, comfort[0]], _MARKS[k % len(_MARKS)], markersize=7,
-                color=_LINES[k % len(_LINES)][0], label=str(name))  # fmt: skip
+        look = canvas.mark_look(k - 1) if k else {"color": canvas.TRACK, "marker": "o"}
+        ax.plot(most[name], table.loc[name, comfort[0]], **look, linestyle="none", markersize=7,
+                label=str(name))  # fmt: skip
     ax.set_xlim(0, 1.15 * float(most.max()))
     ax.set_ylim(0, 1.15 * float(table[comfort[0]].max()))
     ax.set_xlabel("suspension travel, r.m.s. [mm]")

@@ -16,12 +16,9 @@ if TYPE_CHECKING:
 
     from railride.bodes import BodeResponse
 
-# Lines to be told apart, by colour and in grey print. Source: as in railride.plots.canvas.
-_LINES = (("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-."), ("#CC79A7", ":"),
-          ("#000000", "-"), ("#56B4E9", "--"), ("#E69F00", "-."))  # fmt: skip
 _MARKS = {"bogie spacing": "v", "wheelbase": "D"}
 _DEEPEST = 1e-5  # of the largest magnitude: what lies lower is a zero
-_TOGETHER = 1.07  # natural frequencies so close to one another share a label
+_TOGETHER = 0.03  # of the axis: natural frequencies so close to one another share a label
 _FEW = 40  # frequencies, each of which is shown as a point
 _MOST_PHASES = 20_000  # of one line: more than a picture shows, and more than Agg always takes
 _UNITS = {"m": "m/m", "m/s": "(m/s)/m", "m/s^2": "(m/s²)/m"}
@@ -30,8 +27,8 @@ _UNITS = {"m": "m/m", "m/s": "(m/s)/m", "m/s^2": "(m/s²)/m"}
 def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None) -> Figure:
     """Draw |H| and its phase over Hz, one line for each response, with a legend of what differs.
 
-    Natural frequencies of the first response's vehicle are marked and named above. The geometric
-    zeros stand as marks on the lower edge, in the colour of their line.
+    Natural frequencies of all their vehicles are marked and named above. The geometric zeros stand
+    as marks on the lower edge, in the colour of their line or, where all have them, in grey.
 
     responses : from :func:`railride.bodes.bode`, of several speeds, positions or vehicles, all of
     one unit. figure : an empty one to draw into, instead of a new one.
@@ -47,8 +44,7 @@ def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None
     top, above, below = figure.subplots(3, 1, sharex=True, height_ratios=(0.9, 4, 2.2))
     names = _distinct(responses)
     for k, (r, name) in enumerate(zip(responses, names, strict=True)):
-        colour, style = _LINES[k % len(_LINES)]
-        look: dict[str, Any] = {"color": colour, "linestyle": style, "linewidth": 1.3,
+        look: dict[str, Any] = {**canvas.line_look(k), "linewidth": 1.3,
                                 "marker": "." if r.frequency.size <= _FEW else None}  # fmt: skip
         above.plot(*canvas.outline(r.frequency, r.magnitude), **look, label=name or None)
         below.plot(*_broken(r.frequency, r.phase_deg), **look)
@@ -57,7 +53,7 @@ def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None
     below.set_ylabel("phase [°]")
     below.set_xlabel("frequency [Hz]")
     _mark_zeros(above, responses)
-    _mark_modes(top, (above, below), responses[0])
+    _mark_modes(top, (above, below), responses)
     figure.suptitle(_common(responses), x=0.02, ha="left", fontsize="medium")
     handles, labels = above.get_legend_handles_labels()  # zeros were marked after the lines
     if labels:
@@ -97,18 +93,23 @@ def _broken(frequency: Any, phase: Any) -> tuple[Any, Any]:
 
 
 def _mark_zeros(ax: Axes, responses: Sequence[BodeResponse]) -> None:
-    """The geometric zeros as marks on the lower edge; each kind once in the legend."""
+    """The geometric zeros as marks on the lower edge, grey where all responses have them.
+
+    Each kind stands once in the legend.
+    """
     from matplotlib.transforms import blended_transform_factory
 
     where = blended_transform_factory(ax.transData, ax.transAxes)
     named: set[tuple[str, float]] = set()
+    kinds = ({(r.speed, zeros.cause, zeros.distance) for zeros in r.zeros} for r in responses)
+    shared = set.intersection(*kinds)
     for k, r in enumerate(responses):
         for zeros in r.zeros:
             inside = zeros.frequency[zeros.frequency >= r.frequency[0]]
             mark, key = _MARKS.get(zeros.cause, "o"), (zeros.cause, zeros.distance)
             style: dict[str, Any] = {"marker": mark, "linestyle": "none", "markersize": 4,
                                      "clip_on": False, "markerfacecolor": "white"}  # fmt: skip
-            colour = _LINES[k % len(_LINES)][0]
+            colour = canvas.TRACK if (r.speed, *key) in shared else canvas.line_look(k)["color"]
             height = np.full(inside.size, 0.0 if mark == "v" else 0.03)
             ax.plot(inside, height, transform=where, markeredgecolor=colour, **style)
             if inside.size and key not in named:
@@ -120,29 +121,35 @@ def _mark_zeros(ax: Axes, responses: Sequence[BodeResponse]) -> None:
                 entry.set_in_layout(False)  # of no extent, it would be looked for at 0, 0
 
 
-def _mark_modes(top: Axes, others: Sequence[Axes], response: BodeResponse) -> None:
+def _mark_modes(top: Axes, others: Sequence[Axes], responses: Sequence[BodeResponse]) -> None:
     """Thin lines at the natural frequencies of the oscillating modes, named in axes on top."""
     top.axis("off")
     top.set_ylim(0, 1)
-    low, high = response.frequency[0], response.frequency[-1]
-    oscillating = [m for m in response.modes
-                   if m.eigenvalue.imag > 0 and low <= m.frequency_hz <= high]  # fmt: skip
-    groups: list[list[Any]] = []
-    for mode in oscillating:
+    found = {
+        (m.frequency_hz, m.label)
+        for r in responses
+        for m in r.modes
+        if m.eigenvalue.imag > 0 and r.frequency[0] <= m.frequency_hz <= r.frequency[-1]
+    }
+    low, high = others[0].get_xlim()
+    near = (high / low) ** _TOGETHER
+    groups: list[list[tuple[float, str]]] = []
+    for mode in sorted(found):
         for ax in others:
-            ax.axvline(mode.frequency_hz, color=canvas.TRACK, linewidth=0.6, linestyle=":")
-        if groups and mode.frequency_hz < _TOGETHER * groups[-1][0].frequency_hz:
+            ax.axvline(mode[0], color=canvas.TRACK, linewidth=0.6, linestyle=":")
+        if groups and mode[0] < near * groups[-1][0][0]:
             groups[-1].append(mode)
         else:
             groups.append([mode])
     for group in groups:
-        name = ",\n".join(dict.fromkeys(mode.label for mode in group))
-        centre = float(np.sqrt(group[0].frequency_hz * group[-1].frequency_hz))
-        first, last = f"{group[0].frequency_hz:.3g}", f"{group[-1].frequency_hz:.3g}"
+        name = ",\n".join(dict.fromkeys(label for _, label in group))
+        (lowest, _), (highest, _) = group[0], group[-1]
+        first, last = f"{lowest:.3g}", f"{highest:.3g}"
         hertz = f"{first if first == last else f'{first}–{last}'} Hz"
-        label = top.text(centre, 0.0, f"{name}\n{hertz}", rotation=90, ha="center", va="bottom",
-                         fontsize="x-small", linespacing=1.0, color=canvas.TRACK)  # fmt: skip
-        label.set_in_layout(False)
+        text = top.text(float(np.sqrt(lowest * highest)), 0.0, f"{name}\n{hertz}", rotation=90,
+                        ha="center", va="bottom", fontsize="x-small", linespacing=1.0,
+                        color=canvas.TRACK)  # fmt: skip
+        text.set_in_layout(False)
 
 
 def _facts(r: BodeResponse) -> tuple[str, ...]:

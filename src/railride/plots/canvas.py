@@ -26,6 +26,11 @@ BODY = "#0072B2"
 BOGIE = "#D55E00"
 REST = "#BBBBBB"
 
+# Lines to be told apart, by colour and in grey print: the style shifts on every round of colours.
+LINES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00")
+STYLES = ("-", "--", "-.", ":")
+MARKS = "sD^vPXo"
+
 TITLE: dict[str, Any] = {"loc": "left", "fontsize": "medium"}
 DPI = 150
 # Metadata that would differ from one run, or one version of matplotlib, to the next.
@@ -54,6 +59,22 @@ def tidy(ax: Axes) -> None:
     ax.grid(visible=True, color="#E6E6E6", linewidth=0.6)
     ax.set_axisbelow(True)
     ax.spines[["top", "right"]].set_visible(False)
+
+
+def line_look(k: int) -> dict[str, Any]:
+    """Colour and style of line k, from 0: 28 of them differ.
+
+    >>> line_look(0) == line_look(28), line_look(0) == line_look(7)
+    (True, False)
+    """
+    turn, place = divmod(k, len(LINES))
+    return {"color": LINES[place], "linestyle": STYLES[(place + turn) % len(STYLES)]}
+
+
+def mark_look(k: int) -> dict[str, Any]:
+    """Colour and mark of point k, from 0: 49 of them differ."""
+    turn, place = divmod(k, len(LINES))
+    return {"color": LINES[place], "marker": MARKS[(place + turn) % len(MARKS)]}
 
 
 def outline(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
