@@ -6,9 +6,12 @@ import csv
 import io
 import json
 
+import numpy as np
+import pandas as pd
 import pytest
 
 import railride as rr
+from railride.stochastic import maps
 
 COACH = ("--segments", "2", "--floor", "polygon")
 
@@ -66,6 +69,37 @@ def test_map_and_curves_are_drawn(run, tmp_path, options):
     assert code == 0, err
     assert picture.read_bytes().startswith(b"\x89PNG")
     assert f"drawn: {picture}" in err
+
+
+def test_the_command_maps_the_speeds_that_python_does(run):
+    found = document(run, "map", "--segments", 1, "--at", 0)["map"]
+    assert [case["speed_kmh"] for case in found] == pytest.approx([3.6 * v for v in maps.SPEEDS])
+    assert len(found) == 196
+
+
+def test_pictures_say_what_they_are_of():
+    coach = rr.derive_vehicle(rr.load_vehicle("cati2024"), segments=2)
+    table = rr.comfort_map(coach, rr.spectrum("fra_6"), np.linspace(30, 60, 12), floor="polygon")
+    over = "cati2024 (2 segments) over fra_6, polygon floor"
+    assert rr.plot_comfort_map(table).get_title(loc="left") == f"{over}, Wk weighted"
+    assert rr.plot_comfort_map(table, value="Wz").get_title(loc="left") == over
+    middle = table[table["position [m]"] == 0.0]
+    assert rr.plot_comfort_over_speed(middle).get_title(loc="left") == f"{over}, Wk weighted, 0 m"
+
+
+def test_lines_of_equal_value_follow_the_spline_and_are_edged():
+    """Of z = x y² they pass where it has their value, between the points as well."""
+    x, y = np.linspace(10.0, 100.0, 7), np.linspace(-12.0, 12.0, 5)
+    table = pd.DataFrame([{"speed [km/h]": v, "position [m]": p, "a_wrms [m/s^2]": v * p * p}
+                          for v in x for p in y])  # fmt: skip
+    ax = rr.plot_comfort_map(table)
+    (lines,) = (drawn for drawn in ax.collections if hasattr(drawn, "levels"))
+    for level, path in zip(lines.levels, lines.get_paths(), strict=True):
+        if len(path.vertices):
+            v, p = path.vertices.T
+            assert v * p * p == pytest.approx(level, abs=0.02 * 14400)
+    assert lines.get_path_effects()
+    assert all(label.get_path_effects() for label in lines.labelTexts)
 
 
 def test_which_picture_suits_a_table():

@@ -466,6 +466,20 @@ def test_root_locus_draws_every_eigenvalue_in_hertz():
     assert left < locus().loc[locus()["imag"] > 0, "real"].min() / (2 * np.pi)
 
 
+def test_marks_on_the_axes_are_whole_and_none_lies_outside():
+    ax = plots.plot_root_locus(mode_locus(coach(2), c_2=np.linspace(0.0, 900e3, 30)))
+    left, _ = ax.get_xlim()
+    marks = [drawn for drawn in ax.lines if drawn.get_linestyle() == "None"]
+    assert [mark.get_marker() for mark in marks] == ["x", "o"]
+    for mark in marks:
+        assert not mark.get_clip_on()
+        assert (mark.get_xdata() >= left).all()
+    ends = mode_locus(coach(2), c_2=np.array([0.0, 900e3]))
+    beyond = ends["real"] / (2 * np.pi) < left
+    assert beyond.any()  # real eigenvalues far to the left have no mark
+    assert sum(len(mark.get_xdata()) for mark in marks) == (~beyond).sum()
+
+
 def rays(ax):
     return [drawn for drawn in ax.lines if drawn.get_color() == "#CCCCCC"]
 

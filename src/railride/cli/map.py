@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MAP = "The map"
-SPEEDS = {"--from": "10", "--to": "400", "--points": "79"}
+SPEEDS = {"--from": "10", "--to": "400", "--points": "196"}  # every 2 km/h: peaks are narrow
 MOST_SPEEDS = 10_000
 ABREAST, DOWN = 7, 40  # points of the floor and speeds that a table has room for
 COLUMNS = {"speed_kmh": "speed [km/h]", "position_m": "position [m]", "a_rms": "a_rms [m/s^2]",
@@ -47,7 +47,7 @@ def comfort_map(
     points: Annotated[
         str | None,
         typer.Option(metavar="N", rich_help_panel=MAP,
-                     help="How many speeds, evenly; default 79."),
+                     help="How many speeds, evenly; default 196."),
     ] = None,
     at: Annotated[
         list[str] | None,
@@ -107,7 +107,7 @@ def comfort_map(
             plots.save(plots.plot_comfort(found), plot)
     remarks = [*model.vehicle.remarks, *model.remarks, *said, *found.attrs["remarks"]]
     rows = found[list(COLUMNS.values())].set_axis(list(COLUMNS), axis=1).to_dict("records")
-    title = f"{model.vehicle.name} over {source.name}, {floor} floor, {weighting} weighted"
+    title = f"{found.attrs['of']}, {found.attrs['weighting']} weighted"
     text = output.result(form, {"track": source.name, "map": rows}, rows,
                          lambda: _table(found, title), remarks)  # fmt: skip
     output.write(text, to)

@@ -45,14 +45,15 @@ def plot_root_locus(locus: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     for label, rows in _runs(locus, name):
         ax.plot(rows["real"] / (2 * np.pi), rows["imag"] / (2 * np.pi), **_look(label),
                 label=_once(ax, label))  # fmt: skip
-    factor, unit = _shown(locus, name)
-    values = locus[name]
-    for value, mark in ((values.min(), "x"), (values.max(), "o")):
-        end = locus[values == value]
-        ax.plot(end["real"] / (2 * np.pi), end["imag"] / (2 * np.pi), linestyle="none", marker=mark,
-                markersize=5, color=canvas.TRACK, markerfacecolor="none",
-                label=f"{name} = {value / factor:g} {unit}".rstrip())  # fmt: skip
     _limits(ax, locus)
+    factor, unit = _shown(locus, name)
+    for value, mark in ((locus[name].min(), "x"), (locus[name].max(), "o")):
+        end = locus[locus[name] == value]
+        x, y = end["real"] / (2 * np.pi), end["imag"] / (2 * np.pi)
+        inside = x >= ax.get_xlim()[0]
+        ax.plot(x[inside], y[inside], linestyle="none", marker=mark, markersize=5, clip_on=False,
+                color=canvas.TRACK, markerfacecolor="none", zorder=3,
+                label=f"{name} = {value / factor:g} {unit}".rstrip())  # fmt: skip
     _rays(ax)
     ax.set_xlabel("Re λ/2π [Hz]")
     ax.set_ylabel("Im λ/2π [Hz]")
@@ -173,6 +174,7 @@ def _rays(ax: Axes) -> None:
         if -slope * x < 0.06 * top:  # too flat to be told from the axis
             continue
         ax.plot([0, x], [0, -slope * x], color="#CCCCCC", linewidth=0.7, zorder=0)
+        aligned = ("center", 0) if x > left else ("left", 3)
         ax.annotate(f"ζ = {ratio:g}", (x, -slope * x), fontsize="x-small", color="#808080",
-                    annotation_clip=False, xytext=(0, 2), textcoords="offset points",
-                    ha="center" if x > left else "left", va="bottom")  # fmt: skip
+                    annotation_clip=False, xytext=(aligned[1], 2), textcoords="offset points",
+                    ha=aligned[0], va="bottom")  # fmt: skip

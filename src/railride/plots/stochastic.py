@@ -1,6 +1,7 @@
 """Pictures of exact comfort values: along the car, over speed, and both as a map.
 
 The table is that of ``comfort_map``: "speed [km/h]", "position [m]", "a_wrms [m/s^2]" and others.
+Its ``attrs`` say what it is of, which becomes the title.
 """
 
 from __future__ import annotations
@@ -24,11 +25,13 @@ VALUES = {
     "a_rms [m/s^2]": "r.m.s. acceleration [m/s²]",
     "Wz": "Sperling's ride index W$_z$",
 }
+WEIGHTED = "a_wrms [m/s^2]"
 MOST_LINES = 8  # that colours still tell apart
+_FINER = 4  # times: the grid that lines of equal value are drawn on
 
 
 def plot_comfort_along(
-    table: pd.DataFrame, *, value: str = "a_wrms [m/s^2]", ax: Axes | None = None
+    table: pd.DataFrame, *, value: str = WEIGHTED, ax: Axes | None = None
 ) -> Axes:
     """Draw a comfort value along the car, one line per speed (at most eight).
 
@@ -42,7 +45,7 @@ def plot_comfort_along(
 
 
 def plot_comfort_over_speed(
-    table: pd.DataFrame, *, value: str = "a_wrms [m/s^2]", ax: Axes | None = None
+    table: pd.DataFrame, *, value: str = WEIGHTED, ax: Axes | None = None
 ) -> Axes:
     """Draw a comfort value over speed, one line per point of the floor (at most eight).
 
@@ -55,9 +58,7 @@ def plot_comfort_over_speed(
     return ax
 
 
-def plot_comfort_map(
-    table: pd.DataFrame, *, value: str = "a_wrms [m/s^2]", ax: Axes | None = None
-) -> Axes:
+def plot_comfort_map(table: pd.DataFrame, *, value: str = WEIGHTED, ax: Axes | None = None) -> Axes:
     """Draw a comfort value over speed and along the car, as colours with lines of equal value.
 
     table : of ``comfort_map``. value : the column to draw.
@@ -76,15 +77,37 @@ def plot_comfort_map(
     if figure is not None:
         bar = figure.colorbar(mesh, ax=ax, pad=0.02)
         bar.set_label(VALUES[value])
-    lines = ax.contour(speeds, places, z, levels=6, colors="white", linewidths=0.6)
-    ax.clabel(lines, fontsize="x-small", fmt="%.3g")
+    _contours(ax, speeds, places, z)
+    ax.set_title(_title(table, value), **canvas.TITLE)
     ax.set_xlabel("speed [km/h]")
     ax.set_ylabel("position on the floor,\nforward of the middle [m]")
     ax.spines[["top", "right"]].set_visible(False)
     return ax
 
 
-def plot_comfort(table: pd.DataFrame, *, value: str = "a_wrms [m/s^2]") -> Figure:
+def _contours(ax: Axes, x: FloatArray, y: FloatArray, z: FloatArray) -> None:
+    """Lines of equal value of the cubic spline through all points: white, edged, labelled."""
+    from matplotlib.patheffects import withStroke
+    from scipy.interpolate import RectBivariateSpline
+
+    orders = {"kx": min(3, y.size - 1), "ky": min(3, x.size - 1)}
+    spline = RectBivariateSpline(y, x, z, **orders)
+    fine = [np.interp(np.arange(_FINER * (v.size - 1) + 1) / _FINER, np.arange(v.size), v)
+            for v in (x, y)]  # fmt: skip
+    lines = ax.contour(*fine, spline(fine[1], fine[0]), levels=6, colors="white", linewidths=0.7)
+    lines.set_path_effects([withStroke(linewidth=1.5, foreground="#00000080")])
+    for label in ax.clabel(lines, fontsize="x-small", fmt="%.3g"):
+        label.set_path_effects([withStroke(linewidth=1.5, foreground="#202020")])
+
+
+def _title(table: pd.DataFrame, value: str, *more: str) -> str:
+    """What the table is of, as far as it says so."""
+    weighting = table.attrs.get("weighting", "")
+    weighted = f"{weighting} weighted" if weighting and value == WEIGHTED else ""
+    return ", ".join(filter(None, (table.attrs.get("of", ""), weighted, *more)))
+
+
+def plot_comfort(table: pd.DataFrame, *, value: str = WEIGHTED) -> Figure:
     """Draw a comfort value as suits the table: curves where there are few, else the map.
 
     Up to eight speeds give curves along the car, else up to eight points curves over speed.
@@ -135,8 +158,8 @@ def _lines(
         title = "speed" if per == SPEED else "position"
         ax.legend(title=title, frameon=False, fontsize="small", loc="center left",
                   bbox_to_anchor=(1.0, 0.5))  # fmt: skip
-    else:
-        ax.set_title(f"{keys[0]:g} {unit}", **canvas.TITLE)
+    single = f"{keys[0]:g} {unit}" if keys.size == 1 else ""
+    ax.set_title(_title(table, value, single), **canvas.TITLE)
     canvas.tidy(ax)
     return ax
 

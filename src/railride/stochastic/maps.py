@@ -56,7 +56,8 @@ def comfort_map(
     Returns
     -------
     table : "speed [km/h]", "position [m]", "a_rms [m/s^2]", "a_wrms [m/s^2]", "Wz", and "error",
-        the estimated relative error of a_wrms; ``table.attrs["remarks"]``: what to know of it.
+        the estimated relative error of a_wrms; ``table.attrs``: "remarks", what to know of it, and
+        what it is "of", under which "weighting".
 
     Raises
     ------
@@ -98,5 +99,7 @@ def comfort_map(
     table = pd.concat(parts, ignore_index=True)
     if (table["error"] > STATED).any():
         remarks.append(f"relative errors of a_wrms reach {table['error'].max():.0e}")
+    over = f"{model.vehicle.name} ({model.body.title}) over {spectrum.name}, {floor} floor"
+    table.attrs |= {"of": over, "weighting": (weight or weighting("Wk")).name}
     table.attrs["remarks"] = list(dict.fromkeys(r for r in remarks if r))
     return table
