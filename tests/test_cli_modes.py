@@ -85,6 +85,16 @@ def test_mode_shapes_are_drawn_and_one_is_animated(run, tmp_path):
     assert (tmp_path / "5.gif").read_bytes() != (tmp_path / "1.gif").read_bytes()
 
 
+def test_shapes_that_are_left_out_are_remarked_on(run, tmp_path):
+    code, out, err = run("--plot", tmp_path / "a.png", "--count", 6, "--format", "json")
+    assert code == 0, err
+    remark = "--plot: not drawn: bogie pitch, anti-phase (14.07 Hz)"
+    assert f"remark: {remark}\n" in err
+    assert remark in json.loads(out)["remarks"]
+    assert "not drawn" not in run("--plot", tmp_path / "a.png")[2]
+    assert "not drawn" not in run("--plot", tmp_path / "a.png", "--mode", 1)[2]
+
+
 def test_of_modes_with_one_label_the_phase_tells_which(run, tmp_path):
     code, _, err = run("--plot", tmp_path / "a.png", "--mode", "bogie heave")
     assert code == 2
@@ -114,6 +124,10 @@ def test_json_has_share_and_phase_beside_the_label(run):
         (("--log",), ("--log: found no --vary",)),
         ((*RANGE, "--animate", "a.gif"), ("--vary: found --animate with it",)),
         ((*RANGE, "--plot", "a.png", "--mode", "1"), ("--vary: found --mode with it",)),
+        (("--count", "3"), ("--count: found no --plot with it",)),
+        (("--plot", "a.png", "--count", "3", "--mode", "1"), ("--count: found --mode with it",)),
+        (("--plot", "a.png", "--count", "0"), ("--count: found '0'; expected a whole number",)),
+        ((*RANGE, "--plot", "a.png", "--count", "3"), ("--vary: found --count with it",)),
         (("--mode", "1"), ("--mode: found neither --plot nor --animate",)),
         (("--animate", "a.mp4"), ("suffix '.mp4'; expected .gif",)),
         (("--plot", "a.gif"), ("suffix '.gif'; expected one of .png, .pdf, .svg",)),

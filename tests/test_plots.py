@@ -336,13 +336,48 @@ def test_modes_are_drawn_with_label_frequency_and_damping():
     ]  # fmt: skip
 
 
+def drawn_titles(figure):
+    return [ax.get_title(loc="left").partition(":")[0] for ax in figure.axes]
+
+
+def on_mounts(segments):
+    bogies = tuple(replace(bogie, primary_damper_stiffness=2e6, secondary_damper_stiffness=12e6)
+                   for bogie in load_vehicle("cati2024").bogies)  # fmt: skip
+    return derive_vehicle(replace(load_vehicle("cati2024"), bogies=bogies), segments)
+
+
+@pytest.mark.parametrize("model", [coach(4), coach(8), on_mounts(4)], ids=["4", "8", "mounts"])
+def test_every_mode_that_oscillates_is_drawn(model):
+    expected = [m.label + (f", {m.phase}" if m.phase else "") for m in modes(model)
+                if m.eigenvalue.imag > 0]  # fmt: skip
+    figure = plot_modes(model)
+    assert drawn_titles(figure) == expected
+    note = figure.get_supxlabel()
+    assert note == ("not drawn: real eigenvalues (6 × damper)" if model.vehicle.bogies[0]
+                    .primary_damper_stiffness else "")  # fmt: skip
+
+
+def test_what_a_picture_of_modes_leaves_out_is_named():
+    figure = plot_modes(coach(8), count=11)
+    assert len(figure.axes) == 11
+    assert figure.get_supxlabel() == "not drawn: bending 6 (157.1 Hz), bending 7 (181.8 Hz)"
+    note = plot_modes(coach(16), count=3).get_supxlabel().replace("\n", " ")
+    assert note.startswith("not drawn: bogie heave, in phase (9.461 Hz), bending 1 (9.592 Hz), ")
+    assert note.endswith("10 more up to 750.2 Hz")
+    creeping = [mode for mode in modes(on_mounts(2)) if mode.eigenvalue.imag == 0]
+    assert drawn_titles(plot_modes(on_mounts(2), creeping)) == ["damper"] * 6
+    locked = derive_vehicle(load_vehicle("cati2024"), 1).changed(c_1=1e9, c_2=1e9)
+    assert len(plot_modes(locked).axes) > 0
+
+
 def test_modes_of_another_model_and_no_modes_are_refused():
     with pytest.raises(InputError, match="shapes of another size"):
         plot_modes(coach(4), modes(coach(2)))
     with pytest.raises(InputError, match="found none"):
         plot_modes(coach(4), [])
-    with pytest.raises(InputError, match="count: found 0"):
-        plot_modes(coach(4), count=0)
+    for count in (0, 2.5, "all", True):
+        with pytest.raises(InputError, match=f"count: found {count!r}"):
+            plot_modes(coach(4), count=count)
 
 
 def test_mode_shapes_are_drawn_where_dampers_stand_on_elastic_mounts():

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 ABREAST = 7  # mode shapes beside one another in a table
 LOCUS, PICTURES = "Over a parameter", "Pictures"
-MOST_POINTS = 5000
+MOST_POINTS, MOST_SHAPES = 5000, 60
 
 VaryOption = Annotated[
     str | None, typer.Option("--vary", metavar="NAME", rich_help_panel=LOCUS,
@@ -44,6 +44,10 @@ PlotOption = Annotated[
 AnimateOption = Annotated[
     str | None, typer.Option("--animate", metavar="FILE.gif", rich_help_panel=PICTURES,
                              help="Write one mode in motion as a GIF.")]  # fmt: skip
+CountOption = Annotated[
+    str | None, typer.Option("--count", metavar="N", rich_help_panel=PICTURES,
+                             help="How many mode shapes to draw, the lowest; default 15 of those "
+                             "that oscillate.")]  # fmt: skip
 ModeOption = Annotated[
     str | None, typer.Option("--mode", metavar="N|LABEL", rich_help_panel=PICTURES,
                              help="Which mode: its number in the table, or its label; default 1 "
@@ -62,6 +66,7 @@ def modes(
     plot: PlotOption = None,
     animate: AnimateOption = None,
     mode: ModeOption = None,
+    shapes: CountOption = None,
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
 ) -> None:
@@ -81,17 +86,19 @@ def modes(
         {"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": choice.vehicle}
     )
     _check_together(given, vary, {"--from": first, "--to": last, "--points": points,
-                                  "--log": log or None}, animate, plot, mode)  # fmt: skip
+                                  "--log": log or None}, animate, plot, mode, shapes)  # fmt: skip
     count = given.whole("--points", points or "60", 2, MOST_POINTS)
+    drawn = given.whole("--count", shapes, 1, MOST_SHAPES)
     with working("deriving"):
         model = choice.model(given)
+        remarks = [*model.vehicle.remarks, *model.remarks]
         if vary is not None:
             varied = loci.values(model, vary, first, last, count, log=log)
             text = loci.result(model, form, varied, plot)
         else:
-            text = _modes(model, form, plot, animate, mode)
+            text = _modes(model, form, plot, animate, mode, drawn, remarks)
     output.write(text, to)
-    output.remark([*model.vehicle.remarks, *model.remarks])
+    output.remark(remarks)
     for path in (plot, animate):
         if path is not None:
             typer.echo(f"drawn: {path}", err=True)
@@ -99,9 +106,14 @@ def modes(
 
 def _check_together(
     given: Arguments, vary: str | None, locus: dict[str, Any], animate: str | None,
-    plot: str | None, mode: str | None,
+    plot: str | None, mode: str | None, shapes: str | None,
 ) -> None:  # fmt: skip
     """Note options that lack the one they belong to, or have no business with it."""
+    if shapes is not None and plot is None:
+        given.faults.add("--count", "no --plot with it", "a picture to draw",
+                         "such as --plot modes.png")  # fmt: skip
+    if shapes is not None and mode is not None:
+        given.conflict("--count", "--mode")
     if vary is None:
         for option in (option for option, value in locus.items() if value is not None):
             given.faults.add(option, "no --vary with it", "a parameter to vary",
@@ -114,33 +126,37 @@ def _check_together(
         if locus[option] is None:
             given.faults.add("--vary", f"no {option} with it", "the range to vary it over",
                              'such as --from "10 kN*s/m" --to "200 kN*s/m"')  # fmt: skip
-    for option, text in (("--animate", animate), ("--mode", mode)):
+    for option, text in (("--animate", animate), ("--mode", mode), ("--count", shapes)):
         if text is not None:
             given.conflict("--vary", option)
 
 
 def _modes(
-    model: VehicleModel, form: str, plot: str | None, animate: str | None, mode: str | None
-) -> str:
-    """The modes as text; pictures are drawn."""
+    model: VehicleModel, form: str, plot: str | None, animate: str | None, mode: str | None,
+    count: int | None, remarks: list[str],
+) -> str:  # fmt: skip
+    """The modes as text; pictures are drawn, and what they leave out is remarked on."""
     from railride import modal
 
     found = modal.modes(model)
     undamped = modal.undamped_frequencies(model.matrices())
-    chosen = found if mode is None else (_chosen(found, mode),)
+    chosen = None if mode is None else [_chosen(found, mode)]
     if plot is not None or animate is not None:
         from railride import plots
 
         if plot is not None:
-            plots.save(plots.plot_modes(model, chosen), plot)
+            many = plots.MOST_MODES if count is None else count
+            plots.save(plots.plot_modes(model, chosen, count=many), plot)
+            _, left = plots.chosen_modes(model, chosen, many)
+            remarks += [f"--plot: {plots.left_out(left)}"] if left else []
         if animate is not None:
-            plots.animate_mode(model, chosen[0], animate)
+            plots.animate_mode(model, (chosen or found)[0], animate)
     return output.result(
         form,
         as_json(model, found, undamped),
         _flat(model, found),
         lambda: as_table(found, undamped) + "\n" + _shapes(model, found),
-        [*model.vehicle.remarks, *model.remarks],
+        remarks,
     )
 
 

@@ -10,7 +10,7 @@ from railride.plots.animation import animate_mode
 from railride.plots.bode import plot_bode
 from railride.plots.canvas import save
 from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
-from railride.plots.modes import plot_modes
+from railride.plots.modes import MOST_MODES, chosen_modes, left_out, plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
 from railride.plots.stochastic import (
     plot_comfort,
@@ -21,7 +21,10 @@ from railride.plots.stochastic import (
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
 
 __all__ = [
+    "MOST_MODES",
     "animate_mode",
+    "chosen_modes",
+    "left_out",
     "plot_acceleration",
     "plot_bode",
     "plot_comfort",

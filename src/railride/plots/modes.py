@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
     from railride.parameters import Vehicle
     from railride.vehicle import VehicleModel
 
+MOST_MODES = 15  # mode shapes in one picture
+_TWO_COLUMNS = 8  # of mode shapes as many fit into two columns
+_NAMED = 8  # of those that are left out
 # A drawing's own heights: the largest displacement is 1.
 _RAIL, _BOGIE, _FLOOR, _HEIGHT = 0.0, 1.6, 3.8, 1.6
 
@@ -64,22 +69,18 @@ def mode_shape(model: VehicleModel, mode: Mode, turned: complex = 1.0) -> ModeSh
 
 
 def plot_modes(
-    model: VehicleModel, modes: Sequence[Mode] | None = None, *, count: int = 8
+    model: VehicleModel, modes: Sequence[Mode] | None = None, *, count: int = MOST_MODES
 ) -> Figure:
-    """Draw the first mode shapes, each at the instant of its largest displacement.
+    """Draw mode shapes, each at the instant of its largest displacement; what is left out is named.
 
-    modes : of the model, :func:`railride.modal.modes`, which finds them if they are not given.
+    modes : of the model, :func:`railride.modal.modes`. If they are not given, those that oscillate
+    are drawn: a real eigenvalue creeps back and has no shape that goes to and fro.
     count : how many of them to draw, from the lowest natural frequency up.
 
     Raises InputError for a count below 1, and for modes of another model.
     """
-    from railride.modal import modes as find
-
-    if isinstance(count, bool) or int(count) != count or count < 1:
-        raise InputError(f"count: found {count}; expected a whole number of at least 1")
-    drawn = (find(model) if modes is None else tuple(modes))[: int(count)]
-    refuse_others(model, drawn)
-    columns = min(2, len(drawn))
+    drawn, left = chosen_modes(model, modes, count)
+    columns = min(3 if len(drawn) > _TWO_COLUMNS else 2, len(drawn))
     rows = -(-len(drawn) // columns)
     figure = canvas.new_figure(5.2 * columns, 2.0 * rows + 0.8)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
@@ -92,14 +93,61 @@ def plot_modes(
         ax.tick_params(labelbottom=True)
         ax.set_xlabel("x, forward of the body's middle [m]")
     handles, labels = grid.flat[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), frameon=False)
+    figure.legend(handles, labels, loc="outside upper center", ncols=min(len(labels), 2 * columns),
+                  frameon=False)  # fmt: skip
+    if left:
+        note = textwrap.fill(left_out(left), 62 * columns)
+        figure.supxlabel(note, fontsize="small", x=0.01, ha="left", color=canvas.TRACK)
     return figure
+
+
+def chosen_modes(
+    model: VehicleModel, modes: Sequence[Mode] | None = None, count: int = MOST_MODES
+) -> tuple[list[Mode], list[Mode]]:
+    """The modes that :func:`plot_modes` draws, and those of the model that it leaves out.
+
+    Of a vehicle that only creeps, all are drawn as far as they go. Of modes that were asked for,
+    only those beyond ``count`` are left out. Raises as :func:`plot_modes`.
+    """
+    from railride.modal import modes as find
+
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
+        raise InputError(f"count: found {count!r}; expected a whole number of at least 1")
+    every = list(find(model) if modes is None else modes)
+    refuse_others(model, every)
+    wanted = every
+    if modes is None:
+        wanted = [mode for mode in every if mode.eigenvalue.imag > 0] or every
+    drawn = wanted[:count]
+    return drawn, [mode for mode in every if not any(mode is one for one in drawn)]
+
+
+def left_out(modes: Sequence[Mode]) -> str:
+    """A sentence that names the modes which are not drawn.
+
+    >>> from railride import derive_vehicle, load_vehicle
+    >>> from railride.modal import modes
+    >>> left_out(modes(derive_vehicle(load_vehicle("cati2024"), 2))[:2])
+    'not drawn: heave (1.028 Hz), pitch (1.311 Hz)'
+    """
+    pairs = [mode for mode in modes if mode.eigenvalue.imag > 0]
+    named = [f"{_named(mode)} ({mode.frequency_hz:.4g} Hz)" for mode in pairs[:_NAMED]]
+    if len(pairs) > _NAMED:
+        named.append(f"{len(pairs) - _NAMED} more up to {pairs[-1].frequency_hz:.4g} Hz")
+    creeping = Counter(mode.label for mode in modes if not mode.eigenvalue.imag > 0)
+    if creeping:
+        listed = ", ".join(f"{n} × {label}" if n > 1 else label for label, n in creeping.items())
+        named.append(f"real eigenvalues ({listed})")
+    return f"not drawn: {', '.join(named)}"
 
 
 def title(mode: Mode) -> str:
     """What a mode is called in a picture: label, bogies' phase, frequency and damping ratio."""
-    name = f"{mode.label}, {mode.phase}" if mode.phase else mode.label
-    return f"{name}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
+    return f"{_named(mode)}: {mode.frequency_hz:.3f} Hz, ζ = {mode.damping_ratio:.2g}"
+
+
+def _named(mode: Mode) -> str:
+    return f"{mode.label}, {mode.phase}" if mode.phase else mode.label
 
 
 def refuse_others(model: VehicleModel, modes: Sequence[Mode]) -> None:
