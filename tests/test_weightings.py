@@ -12,7 +12,6 @@ from railride.errors import InputError
 from railride.weightings import (
     apply_weighting,
     band_remark,
-    reflected_end,
     weighting,
     weighting_names,
 )
@@ -235,14 +234,6 @@ def test_shortest_records(count):
     found = apply_weighting(weighting("Wk"), np.arange(count) + 1.0, 100.0)
     assert found.shape == (count,)
     assert np.isfinite(found).all()
-
-
-def test_reflected_end_goes_on_in_value_and_slope():
-    straight = 3 + 0.5 * np.arange(200.0)
-    onward = reflected_end(straight)
-    assert onward.size == 64
-    np.testing.assert_allclose(onward[0], straight[-1] + 0.5, rtol=0.001)
-    assert abs(onward[-1]) < 0.1
 
 
 def test_band_remark():

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 from railride.errors import Fault, Faults, InputError
 
@@ -144,15 +145,30 @@ UIC_513 = Scale(
     ),
 )
 
+
+def vertical_part(scale: Scale) -> Scale:
+    """The scale of N_MV for 6 a_z,P95 alone, which N_MV is never below, under its own name."""
+    source = f"the classes of {scale.name} for the vertical axis alone: at best these"
+    return replace(scale, name=f"{scale.name}, vertical part", quantity="6 a_z,P95", source=source)
+
+
+EN_12299_VERTICAL = vertical_part(EN_12299_MEAN)
+UIC_513_VERTICAL = vertical_part(UIC_513)
+
 SCALES = (
     PAPER_TABLE_3,
     ISO_2631_1_ANNEX_C,
     SPERLING,
     EN_12299_CONTINUOUS,
     EN_12299_MEAN,
+    EN_12299_VERTICAL,
     UIC_513,
+    UIC_513_VERTICAL,
 )
-"""All scales; :func:`levels` uses the first three."""
+"""All scales."""
+
+VERTICAL = ("Wk", "Wk_paper")
+"""Weightings that the paper's Table 3 is made for."""
 
 
 def classes_of(scale: Scale, value: float) -> tuple[str, ...]:
@@ -179,7 +195,31 @@ def paper_level(a_wrms: float) -> str:
 
 def levels(a_wrms: float, wz: float | None = None) -> dict[str, list[str]]:
     """Scale → classes, for a weighted r.m.s. (m/s²) and, where there is one, Sperling's W_z."""
-    rated = {s.name: list(classes_of(s, a_wrms)) for s in (PAPER_TABLE_3, ISO_2631_1_ANNEX_C)}
-    if wz is not None:
-        rated[SPERLING.name] = list(classes_of(SPERLING, wz))
-    return rated
+    rated = rate(a_wrms, PAPER_TABLE_3, ISO_2631_1_ANNEX_C)
+    return rated if wz is None else {**rated, **rate(wz, SPERLING)}
+
+
+def rate(value: float, *scales: Scale) -> dict[str, list[str]]:
+    """Scale → every class that holds the one ``value``, on each of the ``scales``.
+
+    >>> rate(1.4, UIC_513, EN_12299_MEAN)
+    {'UIC 513': ['good comfort'], 'EN 12299 mean comfort': ['very comfortable']}
+    """
+    return {scale.name: list(classes_of(scale, value)) for scale in scales}
+
+
+def scale_remarks(weightings: Iterable[str], classes: Iterable[str]) -> list[str]:
+    """What to know of the paper's ``classes`` of r.m.s. values weighted by ``weightings``."""
+    remarks = []
+    others = [name for name in dict.fromkeys(weightings) if name not in VERTICAL]
+    if others:
+        remarks.append(
+            f"the paper's Table 3 is made for W_k on vertical motion; {', '.join(others)} values "
+            "are rated on it for comparison alone"
+        )
+    if PAPER_TABLE_3.classes[-1].label in classes:
+        remarks.append(
+            "the paper's Table 3 calls its worst class, 0.6 m/s² and above, fairly comfortable: "
+            "its last labels run backwards; see the other scales"
+        )
+    return remarks

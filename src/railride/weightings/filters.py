@@ -1,4 +1,4 @@
-"""Frequency weightings of human vibration: as transfer functions, and on sampled records.
+"""Frequency weightings of human vibration, as transfer functions.
 
 Every weighting of ISO 8041-1 is one product of up to four factors in s = jω, ω_i = 2π f_i::
 
@@ -36,12 +36,6 @@ Factor = tuple[tuple[float, ...], tuple[float, ...]]
 
 BUTTERWORTH = 1 / math.sqrt(2)
 """Q1 and Q2, the band limits' quality factor."""
-
-_FADE = 64
-"""Samples over which a record is led to rest before its start and after its end."""
-
-_RING_DOWN = 20.0
-"""Time constants of the slowest pole that are padded with zeros: e^−20 = 2e-9 is left."""
 
 
 @dataclass(frozen=True)
@@ -202,118 +196,4 @@ def weighting(name: str | Weighting) -> Weighting:
     mend = f"did you mean {near[0]}?" if near else ""
     raise InputError(
         str(Fault("weighting", repr(name), "one of " + ", ".join(weighting_names()), mend))
-    )
-
-
-def checked_record(record: ArrayLike, rate: float) -> FloatArray:
-    """The record as floats (..., n), n ≥ 1, if it and its rate (Hz) can be used.
-
-    Raises :class:`InputError` for a rate that is not positive and finite, for an empty record, and
-    for values that are not finite numbers (with the place of the first).
-    """
-    faults = Faults("acceleration record")
-    if not (math.isfinite(rate) and rate > 0):
-        faults.add("sampling rate", f"{rate} Hz", "a positive, finite rate in Hz")
-    try:
-        values = np.asarray(record, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        faults.add("samples", str(error), "real numbers in m/s², time last")
-        values = np.zeros(1)
-    if values.ndim == 0 or values.size == 0:
-        faults.add("samples", f"shape {values.shape}", "at least one sample, time last")
-    elif not np.isfinite(values).all():
-        place = np.argwhere(~np.isfinite(values))[0]
-        count = int(np.count_nonzero(~np.isfinite(values)))
-        faults.add(
-            f"sample {', '.join(str(i) for i in place)} (counted from 0)",
-            f"{values[tuple(place)]}, {count} such in all",
-            "finite numbers",
-            "cut the record there or fill the gap",
-        )
-    faults.raise_if_any()
-    return values
-
-
-def apply_weighting(
-    weight: str | Weighting, record: ArrayLike, rate: float, *, before: float | None = None
-) -> FloatArray:
-    """a_w(t) = ∫ h(τ) a(t − τ) dτ at the samples, h the impulse response of the analogue filter.
-
-    The zero-padded spectrum of the record is multiplied by H(j2πf). That is the analogue filter on
-    the band-limited signal through the samples, up to fs/2: a bilinear filter or a first-order
-    hold is 10 to 30 % low near 50 Hz at 200 to 250 Hz sampling.
-
-    ``weight``: a weighting or its name. ``record`` (..., n), m/s², time last, ``rate`` in Hz; the
-    result has the record's shape.
-
-    The ends: before its first sample the record is taken to have stood for ever at the level
-    ``before`` (m/s²; default each row's own mean, 0 = from rest), so an offset such as gravity
-    leaves no step; what follows is the filter's own start, down to 1e-5 after 3/f1 s (7.5 s for
-    W_k), to be left out of a rating where the record has a run-in. The filter being causal,
-    nothing after the last sample matters; the record is led smoothly to rest there, which keeps
-    its end from ringing: a tone of 0.4·fs is within 1 % up to ten samples from the end and a
-    third wrong in the last one, a tone below 0.1·fs within 1 % up to the last.
-
-    Raises :class:`InputError` for values that are not finite and a rate that is not positive.
-    """
-    from scipy import fft
-
-    chosen = weighting(weight)
-    values = checked_record(record, rate)
-    if before is not None and not math.isfinite(before):
-        raise InputError(
-            str(Fault("level before the record", str(before), "a finite number in m/s²"))
-        )
-    count = values.shape[-1]
-    slowest = float(np.min(-chosen.poles().real)) if chosen.poles().size else math.inf
-    padding = math.ceil(_RING_DOWN / slowest * rate) + 1
-    length = fft.next_fast_len(count + 2 * _FADE + padding, real=True)
-    response = chosen.response(fft.rfftfreq(length, 1 / rate))
-    at_rest = float(chosen.response(0.0).real)
-
-    result = np.empty_like(values)
-    rows, results = values.reshape(-1, count), result.reshape(-1, count)
-    for row, target in zip(rows, results, strict=True):
-        level = float(np.mean(row)) if before is None else before
-        swing = row - level
-        # The start fades in from the level and stays at it where the record starts there; the end
-        # is carried on by its point reflection, whatever that is.
-        extended = np.concatenate((swing[0] * _fade()[::-1], swing, reflected_end(swing)))
-        spectrum = fft.rfft(extended, length)
-        spectrum *= response
-        target[:] = fft.irfft(spectrum, length)[_FADE : _FADE + count] + at_rest * level
-    return result
-
-
-def _fade() -> FloatArray:
-    """Raised cosine from just under 1 to just above 0, shape (_FADE,)."""
-    return 0.5 + 0.5 * np.cos(np.pi * np.arange(1, _FADE + 1) / (_FADE + 1))
-
-
-def reflected_end(row: FloatArray) -> FloatArray:
-    """Continuation of ``row`` (n,) past its end: 2·last − mirror image, led to zero; shape (≤ 64,).
-
-    Value and slope go on without a break, so that a Fourier series does not ring at the end.
-    """
-    reach = min(_FADE, row.size - 1)
-    mirror = row[-2 : -2 - reach : -1] if reach else row[:0]
-    held = np.full(_FADE, 2 * row[-1] - mirror[-1] if reach else row[-1])
-    held[:reach] = 2 * row[-1] - mirror
-    return held * _fade()
-
-
-def band_remark(weighting: Weighting, rate: float) -> str | None:
-    """What a sampling rate (Hz) cannot hold of the weighting's range, or None where it holds it.
-
-    The weighting follows the analogue filter up to 0.4·fs; W_k and its like reach to 80 Hz and
-    want fs ≥ 200 Hz.
-    """
-    _, high = weighting.range
-    if 0.4 * rate >= high * (1 - 1e-12):
-        return None
-    return (
-        f"sampled at {rate:.5g} Hz, the record holds nothing above {rate / 2:.4g} Hz and is "
-        f"trusted to {0.4 * rate:.4g} Hz; {weighting.name} reaches to {high:.3g} Hz "
-        f"(sample at {2.5 * high:.4g} Hz or more): what lies above is missing from the weighted "
-        "value"
     )
