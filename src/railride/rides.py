@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from railride.comfort import indices
+from railride.comfort import ContinuousComfort, continuous_comfort, few_blocks, indices
 from railride.errors import Faults, InputError
 from railride.numeric import Array
-from railride.scales import levels, paper_level
+from railride.scales import levels, paper_level, scale_remarks
 from railride.spectra import Spectrum, check_speed, coverage_remark, spectrum
 from railride.stochastic import (
     BAND_HZ,
@@ -40,7 +40,7 @@ PAPER_SPEEDS = (145 / 3.6, 200 / 3.6)  # m/s
 RATE = 1000.0  # Hz; at 1 ms the straight line between samples costs 0.1 % in r.m.s.
 TRACK_BEFORE = 1750.0  # m of synthetic track before the rated section: one track for all speeds
 FASTEST = 500 / 3.6  # m/s: above it a speed is hardly meant
-VERTICAL = ("Wk", "Wk_paper")  # weightings that the scales for vertical comfort are made for
+FELT = "Wb_en12299"  # EN 12299's weighting of vertical motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +65,7 @@ class Case:
 
     standard_error : of a_wrms, for a run of this length over this spectrum; of an exact value from
     a measured track alone, for that track's length.
+    continuous : the 5 s values of EN 12299, of a rated section that holds one.
     body : the car body's kind; segments, modes : how many of them it has, None if it is not made
     of them. record : what is behind the values, None if they come from the spectrum alone.
     """
@@ -78,9 +79,11 @@ class Case:
     a_wrms_exact: float | None
     standard_error: float | None = None
     mtvv: float | None = None
+    mtvv_exp: float | None = None
     vdv: float | None = None
     crest_factor: float | None = None
     wz: float | None = None
+    continuous: ContinuousComfort | None = None
     record: Record | None = None
     modes: int | None = None
 
@@ -92,7 +95,8 @@ class Case:
     @property
     def levels(self) -> dict[str, list[str]]:
         """Scale → the classes that fit."""
-        return levels(self.a_wrms, self.wz)
+        over_time = self.continuous.levels if self.continuous else {}
+        return {**levels(self.a_wrms, self.wz), **over_time}
 
 
 @dataclass(frozen=True)
@@ -129,9 +133,11 @@ class RideResult:
                     "a_wrms exact [m/s^2]": case.a_wrms_exact,
                     "standard error [m/s^2]": case.standard_error,
                     "MTVV [m/s^2]": case.mtvv,
+                    "MTVV exponential [m/s^2]": case.mtvv_exp,
                     "VDV [m/s^1.75]": case.vdv,
                     "crest factor": case.crest_factor,
                     "Wz": case.wz,
+                    "6 a_z,P95": case.continuous.vertical_part if case.continuous else None,
                     "level": case.level,
                 }
                 for case in self.cases
@@ -205,7 +211,8 @@ def ride(
             remarks += said
         if progress is not None:
             progress(number / len(speeds))
-    remarks += _on_scales(cases, weighted_by)
+    remarks += few_blocks([case.continuous for case in cases])
+    remarks += scale_remarks([weighted_by.name], [case.level for case in cases])
     return RideResult(
         model.vehicle.name,
         source.name,
@@ -285,10 +292,13 @@ def _rate(
     """Rate one run at every position."""
     cases, remarks = [], []
     for k, x in enumerate(at):
-        acceleration = run.acceleration[k]
-        found = indices(acceleration, rate, weight, section=run.rated, before=0.0)
+        acceleration, rated = run.acceleration[k], run.rated
+        found = indices(acceleration, rate, weight, section=rated, before=0.0)
         remarks += [f"{_kmh(run.speed)}, {x:g} m: {said}" for said in found.remarks]
-        weighted = apply_weighting(weight, acceleration, rate, before=0.0)
+        (weighted,) = found.weighted
+        felt = weighted if weight.name == FELT else apply_weighting(
+            FELT, acceleration, rate, before=0.0
+        )  # fmt: skip
         cases.append(
             Case(
                 run.speed,
@@ -300,10 +310,12 @@ def _rate(
                 None if exact is None else float(exact.a_wrms[k]),
                 None if exact is None else float(exact.standard_error(found.duration)[k]),
                 found.mtvv,
+                found.mtvv_exp,
                 found.vdv,
                 found.crest_factor,
                 found.wz,
-                Record(run.time, run.distance, run.elevation, acceleration, weighted, run.rated),
+                continuous_comfort([felt[rated]], rate, "z"),
+                Record(run.time, run.distance, run.elevation, acceleration, weighted, rated),
                 model.body.mode_count,
             )
         )
@@ -370,22 +382,6 @@ def _section(source: Spectrum | Track, length: float) -> list[str]:
         return []
     rated = f"{source.end - length:g} to {source.end:g} m"
     return [f"rated are the last {length:g} m of {source.name}, {rated} of {source.length:g} m"]
-
-
-def _on_scales(cases: Sequence[Case], weight: Weighting) -> list[str]:
-    """What to know of the classes that a value falls into."""
-    remarks = []
-    if weight.name not in VERTICAL:
-        remarks.append(
-            f"the scales of comfort are made for W_k on vertical motion; {weight.name} values are "
-            "rated on them for comparison alone"
-        )
-    if any(case.level == "fairly comfortable" for case in cases):
-        remarks.append(
-            "the paper's Table 3 calls its worst class, 0.6 m/s² and above, fairly comfortable: "
-            "its last labels run backwards; see the other scales"
-        )
-    return remarks
 
 
 def _several(values: float | Sequence[float], name: str) -> list[float]:

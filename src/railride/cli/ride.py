@@ -207,6 +207,7 @@ def _draw(found: RideResult, folder: str) -> str:
 
 
 def _row(case: Case) -> dict[str, Any]:
+    en = case.continuous
     return {
         "speed_kmh": kmh(case.speed),
         "position_m": case.position,
@@ -218,18 +219,27 @@ def _row(case: Case) -> dict[str, Any]:
         "a_wrms_exact": case.a_wrms_exact,
         "standard_error": case.standard_error,
         "mtvv": case.mtvv,
+        "mtvv_exp": case.mtvv_exp,
         "vdv": case.vdv,
         "crest_factor": case.crest_factor,
         "wz": case.wz,
+        "en12299_vertical_part": None if en is None else en.vertical_part,
+        "en12299_blocks": 0 if en is None else en.blocks.size,
+        "en12299_continuous": {} if en is None else en.shares,
         "level": case.level,
         "levels": case.levels,
     }
 
 
 def _flat(case: Case) -> dict[str, Any]:
-    return {**_row(case), "levels": "; ".join(
+    row = _row(case)
+    row["en12299_continuous"] = "; ".join(
+        f"{label}: {share:.3g}" for label, share in row["en12299_continuous"].items()
+    )
+    row["levels"] = "; ".join(
         f"{scale}: {' or '.join(classes)}" for scale, classes in case.levels.items()
-    )}  # fmt: skip
+    )
+    return row
 
 
 def _table(result: RideResult) -> str:
@@ -247,10 +257,11 @@ def _table(result: RideResult) -> str:
     ]  # fmt: skip
     title = (f"{result.vehicle} ({result.body}) over {result.track}, {result.floor} floor, "
              f"{result.weighting} weighted")  # fmt: skip
-    scales = [*columns[:2], *((scale, "") for scale in result.cases[0].levels)]
+    scales = [*columns[:2], ("scale", ""), ("classes", "")]
     classes = [
-        (kmh(c.speed), c.position, *(" or ".join(found) for found in c.levels.values()))
+        (kmh(c.speed), c.position, scale, " or ".join(found))
         for c in result.cases
+        for scale, found in c.levels.items()
     ]
     values = output.table_text(title, columns, rows)
     return values + "\n" + output.table_text("Comfort by scale", scales, classes)

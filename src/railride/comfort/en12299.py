@@ -5,7 +5,7 @@ Source: EN 12299, as commonly quoted (the standard was not read); earlier UIC 51
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -104,14 +104,15 @@ class ContinuousComfort:
         part = {} if vertical is None else rate(vertical, EN_12299_VERTICAL, UIC_513_VERTICAL)
         return {**(held if shares else {}), **part}
 
-    @property
-    def remarks(self) -> tuple[str, ...]:
-        """What to know of few blocks."""
-        n = self.blocks.size
-        if n >= ENOUGH:
-            return ()
-        few = f"{n} block{'' if n == 1 else 's'} of 5 s, fewer than {ENOUGH}"
-        return (f"EN 12299: {few}: mean comfort and the vertical part of it are indicative",)
+
+def few_blocks(found: Iterable[ContinuousComfort | None]) -> list[str]:
+    """What to know where mean comfort rests on few blocks: one remark on all that was ``found``."""
+    few = sorted({one.blocks.size for one in found if one and one.blocks.size < ENOUGH})
+    if not few:
+        return []
+    count = str(few[0]) if len(few) == 1 else f"{few[0]} to {few[-1]}"
+    blocks = f"{count} block{'' if few == [1] else 's'} of 5 s, fewer than {ENOUGH}"
+    return [f"EN 12299: {blocks}: mean comfort, or its vertical part, is indicative"]
 
 
 def continuous_comfort(

@@ -24,6 +24,7 @@ from railride.comfort.en12299 import (
     WEIGHTINGS,
     ContinuousComfort,
     continuous_comfort,
+    few_blocks,
     mean_comfort_levels,
     n_mv,
 )
@@ -251,7 +252,7 @@ def _remarks(
     """The record's own remarks, and those of its axes, which several may share."""
     said: dict[str, list[str]] = {}
     for one in axes:
-        for text in (*one.indices.remarks, *(one.continuous.remarks if one.continuous else ())):
+        for text in one.indices.remarks:
             said.setdefault(text, []).append(one.axis.column)
     remarks = [*record.remarks, *(f"{', '.join(c)}: {text}" for text, c in said.items())]
     unknown = [one.axis.column for one in axes if one.axis.direction is None]
@@ -263,5 +264,6 @@ def _remarks(
         remarks.append(f"{', '.join(twice)} is recorded more than once: left out of the vector sum "
                        "and of N_MV")  # fmt: skip
     remarks += total.remarks if total else ()
+    remarks += few_blocks([one.continuous for one in axes])
     return remarks + scale_remarks([one.indices.weighting for one in axes],
                                    [one.level for one in axes])  # fmt: skip
