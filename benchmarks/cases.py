@@ -160,6 +160,28 @@ def frequency(step: Callable[[], None]) -> dict[str, Any]:
     )  # fmt: skip
 
 
+def comfort(step: Callable[[], None]) -> dict[str, Any]:
+    """All comfort indices of an hour of three axes at 1 kHz, once loaded, in one process."""
+    found, other = worker("comfort"), worker("comfort-peer")
+    step()
+    own = median(found["own"])
+    peer = median(other["peer"]) * found["rows"] / other["rows"]
+    return entry(
+        "comfort",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="railride.comfort.rate_record, its table and its blocks; wall time",
+        peer="the weighting alone: control.forced_response of W_d, W_d, W_k on a tenth of the "
+        "records, its wall time times ten",
+        rows=found["rows"],
+        targets=[
+            at_most("time, s", own, 5),
+            at_most("peak memory of the process, MB", found["peak"] / 1e6, 1500),
+        ],
+    )
+
+
 DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
 
 CASES: dict[str, tuple[Case, int]] = {
@@ -169,6 +191,7 @@ CASES: dict[str, tuple[Case, int]] = {
     "derive-process": (derive_process, PROCESS_ROUNDS),
     "derive-growth": (derive_growth, GROWTH_ROUNDS),
     "frequency": (frequency, 1),
+    "comfort": (comfort, 1),
 }
 """Name to the case and the number of its steps."""
 

@@ -69,9 +69,13 @@ def run(*arguments: str) -> Usage:
 
 
 def worker(name: str) -> dict[str, Any]:
-    """What ``workers.py NAME`` measured inside itself, in a process of its own."""
-    result: dict[str, Any] = json.loads(run(str(ROOT / "benchmarks" / "workers.py"), name).output)
-    return result
+    """What ``workers.py NAME`` measured inside itself, in a process of its own, and its ``peak``.
+
+    That is the peak memory of the whole process, in bytes.
+    """
+    usage = run(str(ROOT / "benchmarks" / "workers.py"), name)
+    result: dict[str, Any] = json.loads(usage.output)
+    return result | {"peak": usage.peak}
 
 
 def interleaved(

@@ -24,6 +24,8 @@ RUN_IN = 250.0
 """m before it: 5/(ζω) of heave, ζ = 0.28 at 1 Hz, twice."""
 SEGMENTS_FREQUENCY = 8
 FREQUENCIES = 100_000
+HOUR = 3_600_001
+"""Rows of an hour's record, both ends in it."""
 BAND = (0.05, 80.0)
 """Hz, what a ride is rated over."""
 
@@ -206,6 +208,50 @@ def a_wrms(rounds: int = 9) -> dict[str, Any]:
     }
 
 
+def comfort(rounds: int = 3) -> dict[str, Any]:
+    """`railride.comfort.rate_record` of an hour of three axes: all indices, the table, the blocks.
+
+    One sample more than the hour's number, whose prime factors suit no fast transform.
+    """
+    from railride.comfort import AccelerationRecord, Axis, rate_record
+
+    axes = tuple(Axis(axis, axis, (noise(HOUR, seed),)) for seed, axis in enumerate("xyz"))
+    record = AccelerationRecord("an hour", RATE, (0.0,), axes)
+    times, found = [], None
+    for _ in range(rounds):
+        del found  # or its weighted records would be counted twice
+        seconds, found = timed(lambda: rate_record(record))
+        also, _ = timed(lambda result=found: (result.table(), result.blocks()))
+        times.append(seconds + also)
+    return {"own": times, "rows": HOUR, "a_wrms": found.axes[2].indices.a_wrms}
+
+
+def comfort_peer() -> dict[str, Any]:
+    """The weighting alone of a tenth of the same records by `control.forced_response`."""
+    import control
+    import numpy as np
+
+    from railride.weightings import weighting
+
+    rows = HOUR // 10
+    t, total = np.arange(rows) / RATE, 0.0
+    for seed, name in enumerate(("Wd", "Wd", "Wk")):
+        system = control.ss(weighting(name).transfer_function())
+        record = noise(HOUR, seed)[:rows]
+        seconds, _ = timed(lambda s=system, a=record: control.forced_response(s, t, a))
+        total += seconds
+    return {"peer": [total], "rows": rows}
+
+
+def noise(count: int, seed: int) -> Any:
+    """Random acceleration, about 1 m/s², most of it below 16 Hz."""
+    import numpy as np
+    from scipy import signal
+
+    white = np.random.default_rng(seed).standard_normal(count)
+    return signal.lfilter([0.3], [1.0, -0.9], white)
+
+
 def derive_railride() -> dict[str, Any]:
     """From the parameters of the vehicle to its linear matrices in symbols."""
     from railride.parameters import load_vehicle
@@ -283,6 +329,8 @@ WORKERS = {
     "ride": ride,
     "a_wrms": a_wrms,
     "frequency": frequency,
+    "comfort": comfort,
+    "comfort-peer": comfort_peer,
     "derive-railride": derive_railride,
     "derive-sympy": derive_sympy,
 }

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from railride.comfort.averages import line_powers
 from railride.weightings import FloatArray, checked_record
 
 NUMBERS = range(-10, 20)  # n of the bands from 0.1 to 80 Hz
@@ -71,11 +72,9 @@ def third_octave_rms(pieces: Sequence[ArrayLike], rate: float) -> FloatArray:
 
 def _squares(values: FloatArray, rate: float, edges: FloatArray) -> FloatArray:
     """Mean square of a stretch in each band."""
-    from scipy import fft
-
-    n = values.size
-    power = np.abs(fft.rfft(values - values.mean()) / n) ** 2
-    power[1 : (n + 1) // 2] *= 2  # a line and its mirror image; 0 and fs/2 have none
+    frequency, power = line_powers(values, rate)
+    power[0] = 0.0  # the mean
     up_to = np.concatenate(([0.0], np.cumsum(power)))  # at the upper ends of the lines' cells
-    cells = np.clip((np.arange(power.size + 1) - 0.5) * rate / n, 0.0, rate / 2)
+    half = frequency[1] / 2 if frequency.size > 1 else rate / 2
+    cells = np.clip(np.append(frequency, frequency[-1] + 2 * half) - half, 0.0, rate / 2)
     return np.asarray(np.diff(np.interp(edges, cells, up_to)))

@@ -2,7 +2,7 @@ r"""How a record would go on beyond its ends: linear prediction.
 
 A filter needs to know what came before the first sample. Nothing at all, or a mirror image, makes a
 transient there that can be larger than the record; a continuation of the record by its own
-spectrum makes none for tones and a small one for noise::
+spectrum makes next to none for tones and a small one for noise::
 
     x_n = −Σ a_k x_(n−k),   k = 1 … p,
 
