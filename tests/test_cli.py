@@ -207,11 +207,16 @@ def test_a_ride_has_every_key(result):
     assert {*keys.split(), "level", "levels"} <= set(case)
     assert case["body"] == "segments"
     assert case["mtvv"] >= case["a_wrms"] > 0
+    assert case["mtvv"] > case["mtvv_exp"] > 0
+    assert case["en12299_blocks"] == 3  # 18 s
+    assert sum(case["en12299_continuous"].values()) == pytest.approx(1)
+    assert case["en12299_vertical_part"] > 0
     assert abs(case["a_wrms"] - case["a_wrms_exact"]) < 4 * case["standard_error"]
     assert all(isinstance(classes, list) for classes in case["levels"].values())
     (exact,) = result("ride", "--speed", "200", "--segments", "2", "--spectral")["cases"]
     assert exact["a_wrms"] == exact["a_wrms_exact"] == case["a_wrms_exact"]
-    assert [exact[key] for key in ("mtvv", "vdv", "crest_factor")] == [None] * 3
+    keys = "mtvv mtvv_exp vdv crest_factor en12299_vertical_part"
+    assert [exact[key] for key in keys.split()] == [None] * 5
 
 
 def test_the_default_ride_is_the_papers(result):

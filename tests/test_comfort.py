@@ -20,6 +20,7 @@ from railride.comfort import (
     vdv,
     wz_from_rms,
 )
+from railride.comfort.averages import line_powers
 from railride.errors import InputError
 from railride.scales import (
     EN_12299_CONTINUOUS,
@@ -68,6 +69,22 @@ def test_band_rms_of_everything_is_the_rms(count):
     """Parseval, for odd and even lengths, 0 Hz and fs/2 included."""
     record = np.random.default_rng(2).standard_normal((2, count)) + 1
     np.testing.assert_allclose(band_rms(record, 100.0, 0.0, 1e9), rms(record), rtol=1e-12)
+
+
+@pytest.mark.parametrize("count", [120_011, 131_071])
+def test_a_long_spectrum_of_an_awkward_number_of_samples_holds_the_same(count):
+    """Prime numbers of samples: the same mean squares, in all and in a band, and the same mean."""
+    rate = 200.0
+    record = 9.81 + sine(5, rate, count / rate, 0.4) + sine(30, rate, count / rate, 0.3)
+    frequency, power = line_powers(record, rate)
+    assert frequency.size == power.size > count // 2 + 1
+    assert power.sum() == pytest.approx(np.mean(record**2), rel=1e-12)
+    assert power[0] == pytest.approx(record.mean() ** 2, rel=1e-12)
+    assert band_rms(record, rate, 3, 10) == pytest.approx(0.4 / math.sqrt(2), rel=1e-4)
+    assert band_rms(record, rate) == pytest.approx(0.5 / math.sqrt(2), rel=1e-4)
+    b = math.hypot(*(a * sperling_weighting(f) for a, f in ((0.4, 5.0), (0.3, 30.0))))
+    expected = wz_from_rms(b / math.sqrt(2))
+    assert sperling_wz(record, rate) == pytest.approx(float(expected), rel=1e-4)
 
 
 @pytest.mark.parametrize("frequency", [0.9, 1.013, 9.6, 30.3])
@@ -341,6 +358,53 @@ def test_indices_of_a_sine():
     b = 0.588 * math.sqrt(86.8375 / 45.44185)
     assert found.wz == pytest.approx(4.42 * (b * level) ** 0.3, rel=1e-6)
     assert found.remarks == ()
+
+
+@pytest.mark.parametrize("rate", [100, 200, 250, 1000, 10_000])
+@pytest.mark.parametrize(("name", "tone"), [("Wk", 8.0), ("Wd", 2.0), ("Wb", 31.5), ("Wk", 40.0)])
+def test_indices_of_a_sine_from_its_first_sample(rate, name, tone):
+    """Without a run-in: no start-up transient decides MTVV, VDV or the crest factor."""
+    gain, amplitude, seconds = abs(weighting(name).response(tone)), 0.7, 20
+    found = indices(9.81 + sine(tone, rate, seconds, amplitude, 1.1), rate, name)
+    level = gain * amplitude / math.sqrt(2)
+    assert found.a_rms == pytest.approx(amplitude / math.sqrt(2), rel=1e-3)
+    assert found.a_wrms == pytest.approx(level, rel=1e-3)
+    assert found.mtvv == pytest.approx(level, rel=5e-3)
+    # a_w² is the mean and a ripple at twice the tone, which a first-order low-pass lets through
+    ripple = 1 / math.hypot(1, 4 * math.pi * tone)
+    # (at 100 Hz the square of 40 Hz is read as 20 Hz, which ripples by 0.3 % more)
+    assert found.mtvv_exp == pytest.approx(level * math.sqrt(1 + ripple), rel=4e-3)
+    assert found.vdv == pytest.approx(gain * amplitude * (3 / 8 * seconds) ** 0.25, rel=1e-3)
+    assert found.crest_factor == pytest.approx(math.sqrt(2), rel=0.01)
+
+
+@pytest.mark.parametrize("rate", [100, 200, 250, 1000, 10_000])
+@pytest.mark.parametrize("middle", [12.0, 23.7])
+def test_indices_of_a_burst(rate, middle):
+    """A tone of 16 Hz under a Hann window of D = 6 s, in T = 36 s, so slow that W_k is its gain.
+
+    ∫ cos⁴(πt/D) dt = 3D/8, ∫ cos⁸(πt/D) dt = 35D/128, each over the window.
+    """
+    from scipy import integrate
+
+    length, total, tone, amplitude = 6.0, 36.0, 16.0, 1.3
+    times = np.arange(round(total * rate)) / rate - middle
+    window = np.where(abs(times) < length / 2, np.cos(np.pi * times / length) ** 2, 0.0)
+    record = amplitude * window * np.sin(2 * np.pi * tone * times + 0.4)
+    found = indices(record, rate, "Wk")
+    level = abs(weighting("Wk").response(tone)) * amplitude
+    a_w = level * math.sqrt(3 / 8 * length / total / 2)
+    assert found.a_wrms == pytest.approx(a_w, rel=2e-3)
+    assert found.vdv == pytest.approx(level * (3 / 8 * 35 / 128 * length) ** 0.25, rel=2e-3)
+    assert found.crest_factor == pytest.approx(level / a_w, rel=0.01)
+    square = integrate.quad(lambda t: np.cos(np.pi * t / length) ** 4, -0.5, 0.5)[0]
+    assert found.mtvv == pytest.approx(level * math.sqrt(square / 2), rel=3e-3)
+    reach = [
+        integrate.quad(lambda t, now=now: np.cos(np.pi * t / length) ** 4 * math.exp(t - now),
+                       -length / 2, now)[0]
+        for now in np.arange(-1.0, 3.0, 0.02)
+    ]  # fmt: skip
+    assert found.mtvv_exp == pytest.approx(level * math.sqrt(max(reach) / 2), rel=0.01)
 
 
 def test_indices_rate_the_section_and_nothing_else():

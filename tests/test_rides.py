@@ -10,6 +10,7 @@ import scipy.signal
 import scipy.stats
 from vehicles import paper_coach, random_model
 
+from railride.comfort import mtvv
 from railride.errors import InputError
 from railride.frequency import wheelset_delays
 from railride.modal import modes
@@ -21,7 +22,7 @@ from railride.stochastic import measured_spectrum, stochastic_ride
 from railride.timerun import run_in_time, time_run
 from railride.track import Track, synthesise
 from railride.vehicle import derive_vehicle
-from railride.weightings import weighting
+from railride.weightings import apply_weighting, weighting
 
 V = 200 / 3.6
 WK = weighting("Wk")
@@ -289,6 +290,34 @@ def test_record_holds_what_is_rated():
     felt = record.acceleration[record.rated]
     assert np.sqrt(np.mean(felt**2)) == pytest.approx(case.a_rms, rel=2e-2)
     assert record.time.shape == record.elevation.shape == record.weighted.shape
+
+
+def test_a_ride_has_the_values_of_en_12299_on_its_floor():
+    """Blocks of 5 s of the record weighted W_b of EN 12299, whatever the ride's own weighting."""
+    found = ride(paper_coach(2), speeds=[V, 3 * V], length=1000.0)
+    case, fast = found.cases
+    record = case.record
+    felt = apply_weighting("Wb_en12299", record.acceleration, 1000.0, before=0.0)[record.rated]
+    expected = np.sqrt(np.mean(felt[:15_000].reshape(3, 5000) ** 2, axis=1))
+    np.testing.assert_allclose(case.continuous.blocks, expected, rtol=1e-9)
+    part = case.continuous.vertical_part
+    assert part == pytest.approx(6 * np.percentile(expected, 95), rel=1e-9)
+    named = {"EN 12299 continuous comfort", "EN 12299 mean comfort, vertical part",
+             "UIC 513, vertical part"}  # fmt: skip
+    assert named < set(case.levels)
+    assert fast.continuous.blocks.size == 1
+    assert sum("EN 12299: 1 to 3 blocks of 5 s" in remark for remark in found.remarks) == 1
+    short = ride(paper_coach(2), speeds=[V], length=200.0).cases[0]
+    assert short.continuous is None
+    assert not named & set(short.levels)
+
+
+def test_a_ride_is_weighted_once_and_rated_by_its_record():
+    case = ride(paper_coach(2), speeds=[V], length=400.0, weight="Wb").cases[0]
+    expected = apply_weighting("Wb", case.record.acceleration, 1000.0, before=0.0)
+    np.testing.assert_allclose(case.record.weighted, expected, atol=1e-12)
+    rated = expected[case.record.rated]
+    assert case.mtvv_exp == pytest.approx(float(mtvv(rated, 1000.0, kind="exponential")), rel=1e-9)
 
 
 def test_spectral_gives_the_exact_value_alone():

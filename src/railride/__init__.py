@@ -37,7 +37,7 @@ _WHERE = {
     "stochastic": ("stochastic_ride", "comfort_map", "measured_spectrum", "mode_shares",
                    "output_statistics", "third_octaves"),
     "weightings": ("Weighting", "weighting", "weighting_names", "apply_weighting"),
-    "comfort": ("indices",),
+    "comfort": ("AccelerationRecord", "Axis", "RecordRating", "indices", "rate_record"),
     "rides": ("RideResult", "ride"),
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),

@@ -31,7 +31,7 @@ from railride.comfort.en12299 import (
 from railride.comfort.indices import ComfortIndices, indices
 from railride.comfort.record import AccelerationRecord, Axis, AxisName
 from railride.comfort.running import running_rms
-from railride.comfort.total import AXES, Posture, VibrationTotal, posture, vibration_total
+from railride.comfort.total import AXES, Posture, VibrationTotal, find_posture, vibration_total
 from railride.errors import Fault, InputError
 from railride.scales import scale_remarks
 from railride.weightings import FloatArray, Weighting, apply_weighting, weighting
@@ -178,7 +178,7 @@ def rate_record(
     record: AccelerationRecord,
     *,
     weightings: Sequence[str | Weighting | None] = (),
-    person: str | Posture = "standing",
+    posture: str | Posture = "standing",
 ) -> RecordRating:
     """Rate every axis of a measured record, all together, and over time.
 
@@ -187,8 +187,8 @@ def rate_record(
     record : accelerations, m/s², in one or several pieces (:func:`railride.comfort.indices` says
         how these are pooled).
     weightings : one per axis, in the order of the axes, by name; None, or none at all, for that of
-        the person's posture (W_k where an axis has no direction).
-    person : "standing", "seat", "backrest", "feet" or "recumbent": the vector sum's factors.
+        the posture (W_k where an axis has no direction).
+    posture : "standing", "seat", "backrest", "feet" or "recumbent": the vector sum's factors.
 
     Raises
     ------
@@ -202,7 +202,7 @@ def rate_record(
     >>> round(rate_record(run).axes[0].indices.a_wrms, 2)
     0.73
     """
-    chosen = posture(person)
+    chosen = find_posture(posture)
     if weightings and len(weightings) != len(record.axes):
         raise InputError(str(Fault("weightings", str(len(weightings)), f"one for each of the "
                                    f"{len(record.axes)} axes")))  # fmt: skip

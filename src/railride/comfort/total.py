@@ -42,12 +42,12 @@ POSTURES = (
 """For comfort, translations only."""
 
 
-def posture(name: str | Posture) -> Posture:
+def find_posture(name: str | Posture) -> Posture:
     """The posture of that name; what is one already stays as it is.
 
     Raises :class:`railride.errors.InputError`, naming those that exist, where there is none.
 
-    >>> posture("feet").factors
+    >>> find_posture("feet").factors
     (0.25, 0.25, 0.4)
     """
     if isinstance(name, Posture):
@@ -96,19 +96,19 @@ class VibrationTotal:
 
 
 def vibration_total(
-    weighted: Mapping[AxisName, tuple[str, float]], of: str | Posture = "standing"
+    weighted: Mapping[AxisName, tuple[str, float]], posture: str | Posture = "standing"
 ) -> VibrationTotal | None:
     """The vector sum for a posture; None of fewer than two axes.
 
-    ``weighted``: direction → its weighting's name and the weighted r.m.s., m/s². ``of``: a
-    posture or its name.
+    ``weighted``: direction → its weighting's name and the weighted r.m.s., m/s².
+    ``posture``: one, or its name.
 
     A remark says which axes are missing and which are weighted otherwise than the posture asks.
 
     >>> vibration_total({"y": ("Wk", 3.0), "z": ("Wk", 4.0)}, "feet").remarks
     ('vector sum (feet): without x, so the whole is not below it',)
     """
-    chosen = posture(of)
+    chosen = find_posture(posture)
     if len(weighted) < 2:
         return None
     axes = tuple(axis for axis in AXES if axis in weighted)
