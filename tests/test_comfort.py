@@ -318,6 +318,21 @@ def test_other_scales(scale, value, label):
     assert classes_of(scale, value) == (label,)
 
 
+@pytest.mark.parametrize(
+    ("scale", "limits"),
+    [
+        (EN_12299_CONTINUOUS, (0.2, 0.3, 0.4)),
+        (EN_12299_MEAN, (1.5, 2.5, 3.5, 4.5)),
+        (UIC_513, (1.0, 2.0, 4.0, 5.0)),
+    ],
+)
+def test_each_limit_is_the_next_classes_own(scale, limits):
+    labels = [entry.label for entry in scale.classes]
+    for limit, below, above in zip(limits, labels[:-1], labels[1:], strict=True):
+        assert classes_of(scale, limit - 1e-9) == (below,)
+        assert classes_of(scale, limit) == (above,)
+
+
 def test_levels():
     assert levels(0.55, 2.3) == {
         "Cati 2024 Table 3": ["little comfortable"],
