@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from railride.comfort import ContinuousComfort, continuous_comfort, few_blocks, indices
+from railride.comfort import ContinuousComfort, continuous_comfort_of, few_blocks, indices
 from railride.errors import Faults, InputError
 from railride.numeric import Array
 from railride.scales import levels, paper_level, scale_remarks
@@ -31,7 +31,7 @@ from railride.timerun import LONGEST_RUN_IN, Run, time_run
 from railride.track import Track, recommended_step, resolved_band_hz, synthesise
 from railride.trackfile import read_track
 from railride.vehicle import VehicleModel
-from railride.weightings import Weighting, apply_weighting, weighting
+from railride.weightings import Weighting, weighting
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,7 +40,6 @@ PAPER_SPEEDS = (145 / 3.6, 200 / 3.6)  # m/s
 RATE = 1000.0  # Hz; at 1 ms the straight line between samples costs 0.1 % in r.m.s.
 TRACK_BEFORE = 1750.0  # m of synthetic track before the rated section: one track for all speeds
 FASTEST = 500 / 3.6  # m/s: above it a speed is hardly meant
-FELT = "Wb_en12299"  # EN 12299's weighting of vertical motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,9 +295,7 @@ def _rate(
         found = indices(acceleration, rate, weight, section=rated, before=0.0)
         remarks += [f"{_kmh(run.speed)}, {x:g} m: {said}" for said in found.remarks]
         (weighted,) = found.weighted
-        felt = weighted if weight.name == FELT else apply_weighting(
-            FELT, acceleration, rate, before=0.0
-        )  # fmt: skip
+        over_time = continuous_comfort_of(found, acceleration, rate, "z", section=rated, before=0.0)
         cases.append(
             Case(
                 run.speed,
@@ -314,7 +311,7 @@ def _rate(
                 found.vdv,
                 found.crest_factor,
                 found.wz,
-                continuous_comfort([felt[rated]], rate, "z"),
+                over_time,
                 Record(run.time, run.distance, run.elevation, acceleration, weighted, rated),
                 model.body.mode_count,
             )

@@ -11,6 +11,7 @@ from railride.comfort.dose import pooled_vdv, vdv
 from railride.comfort.en12299 import (
     ContinuousComfort,
     continuous_comfort,
+    continuous_comfort_of,
     few_blocks,
     mean_comfort_levels,
     n_mv,
@@ -38,6 +39,7 @@ __all__ = [
     "band_rms",
     "block_rms",
     "continuous_comfort",
+    "continuous_comfort_of",
     "crest_factor",
     "few_blocks",
     "indices",

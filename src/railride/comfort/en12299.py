@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.comfort.averages import block_rms_of
+from railride.comfort.indices import ComfortIndices, pieces_of
 from railride.comfort.record import AxisName
 from railride.scales import (
     EN_12299_CONTINUOUS,
@@ -22,7 +23,7 @@ from railride.scales import (
     classes_of,
     rate,
 )
-from railride.weightings import FloatArray, checked_record
+from railride.weightings import FloatArray, apply_weighting, checked_record
 
 WEIGHTINGS: dict[AxisName, str] = {"x": "Wd", "y": "Wd", "z": "Wb_en12299"}
 """Direction → weighting."""
@@ -125,3 +126,23 @@ def continuous_comfort(
     """
     blocks = np.concatenate(block_rms_of(weighted, rate))
     return ContinuousComfort(direction, blocks) if blocks.size else None
+
+
+def continuous_comfort_of(
+    found: ComfortIndices,
+    record: ArrayLike | Sequence[FloatArray],
+    rate: float,
+    direction: AxisName,
+    *,
+    section: slice = slice(None),
+    before: float | None = None,
+) -> ContinuousComfort | None:
+    """The 5 s values of an axis that is rated: weighted again only if ``found`` is otherwise.
+
+    ``record``, ``rate``, ``section`` and ``before`` as :func:`railride.comfort.indices` had them.
+    """
+    own, weighted = WEIGHTINGS[direction], found.weighted
+    if found.weighting != own:
+        pieces = pieces_of(record, rate)
+        weighted = tuple(apply_weighting(own, piece, rate, before=before) for piece in pieces)
+    return continuous_comfort([piece[section] for piece in weighted], rate, direction)

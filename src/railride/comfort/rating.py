@@ -21,9 +21,8 @@ import numpy as np
 
 from railride.comfort.averages import BLOCK, block_rms_of
 from railride.comfort.en12299 import (
-    WEIGHTINGS,
     ContinuousComfort,
-    continuous_comfort,
+    continuous_comfort_of,
     few_blocks,
     mean_comfort_levels,
     n_mv,
@@ -34,7 +33,7 @@ from railride.comfort.running import running_rms
 from railride.comfort.total import AXES, Posture, VibrationTotal, find_posture, vibration_total
 from railride.errors import Fault, InputError
 from railride.scales import scale_remarks
-from railride.weightings import FloatArray, Weighting, apply_weighting, weighting
+from railride.weightings import FloatArray, Weighting, weighting
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -225,11 +224,8 @@ def _rate_axis(axis: Axis, rate: float, weight: Weighting) -> AxisRating:
     found = indices(axis.pieces, rate, weight, direction=SPERLING_DIRECTIONS.get(axis.direction))
     if axis.direction is None:
         return AxisRating(axis, rate, found, None)
-    own = WEIGHTINGS[axis.direction]
-    weighted = found.weighted if found.weighting == own else tuple(
-        apply_weighting(own, piece, rate) for piece in axis.pieces
-    )  # fmt: skip
-    return AxisRating(axis, rate, found, continuous_comfort(weighted, rate, axis.direction))
+    over_time = continuous_comfort_of(found, axis.pieces, rate, axis.direction)
+    return AxisRating(axis, rate, found, over_time)
 
 
 def _by_direction(axes: Iterable[AxisRating]) -> dict[AxisName, AxisRating]:
