@@ -15,7 +15,7 @@ from typing import Any
 
 from railride.body_profile import BodyProfile
 from railride.errors import Faults
-from railride.quantities import checked_numbers, si
+from railride.quantities import LIST, checked_numbers, si
 from railride.toml_tables import shown
 
 INERTIA_METHODS = ("auto", "rods", "graded", "segments")
@@ -35,8 +35,11 @@ class CarBody:
     bending_frequency: Hz, free-free first bending, to which the joints are calibrated; or
     joint_stiffness: k_θ, N m/rad; or bending_stiffness: EI, N m², k_θ = EI/(segment length).
     One of the three at most; a body without any is rigid.
+    shear_stiffness: κGA, N, and rotary_inertia: ρI per length, kg m, of a beam (Timoshenko's).
     joint_damping: c_θ, N m s/rad; or bending_damping: damping ratio ζ of the first bending mode,
-    in [0, 1), c_θ = 2 ζ k_θ/ω_1.
+    in [0, 1), ζ_i = ζ f_i/f_1; or rayleigh_mass: α, 1/s, and rayleigh_stiffness: β, s, of bending,
+    ζ_i = α/(2ω_i) + β ω_i/2; or mode_damping: ζ_i of the bending modes, each in [0, 1), the last
+    for all further ones. One of the four at most.
     inertia: "rods" (each segment has m ℓ²/12), "graded" (mass per length a + b x²), "segments"
     (each segment's own inertia makes up I_c), "auto" (rods where m_c L²/12 is within 5 % of I_c,
     otherwise graded).
@@ -57,8 +60,13 @@ class CarBody:
     bending_frequency: float | None = field(default=None, metadata=si("Hz", "> 0"))
     joint_stiffness: float | None = field(default=None, metadata=si("N m/rad", "> 0"))
     bending_stiffness: float | None = field(default=None, metadata=si("N m^2", "> 0"))
+    shear_stiffness: float | None = field(default=None, metadata=si("N", "> 0"))
+    rotary_inertia: float = field(default=0.0, metadata=si("kg m", ">= 0"))
     joint_damping: float | None = field(default=None, metadata=si("N m s/rad", ">= 0"))
     bending_damping: float = field(default=0.0, metadata=si("", ">= 0"))
+    rayleigh_mass: float = field(default=0.0, metadata=si("1/s", ">= 0"))
+    rayleigh_stiffness: float = field(default=0.0, metadata=si("s", ">= 0"))
+    mode_damping: tuple[float, ...] | None = field(default=None, metadata=si("", ">= 0", LIST))
     inertia: str = "auto"
     profile: BodyProfile | None = None
 
@@ -74,6 +82,11 @@ class CarBody:
         if self.profile is not None:
             for name, value in rigid_values(self.profile).items():
                 object.__setattr__(self, name, value)
+
+    @property
+    def bends(self) -> bool:
+        """Whether anything is known of the body's bending."""
+        return self.profile is not None or any(getattr(self, name) for name in _STIFFNESSES)
 
     @classmethod
     def of(cls, profile: BodyProfile, **others: Any) -> CarBody:
@@ -119,13 +132,7 @@ def check_body(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
             "a damping ratio of at least 0 and less than 1",
             'a car body has some "1.5 %"',
         )
-    if damping and values.get("joint_damping") is not None:
-        faults.add(
-            f"{prefix}joint_damping",
-            "joint_damping and bending_damping together",
-            "one of them",
-            "they both set the damping of the joints: keep one",
-        )
+    _check_damping(values, prefix, faults)
     inertia = values.get("inertia")
     if inertia is not None and inertia not in INERTIA_METHODS:
         near = difflib.get_close_matches(str(inertia), INERTIA_METHODS, n=1)
@@ -134,6 +141,26 @@ def check_body(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
 
     if values.get("profile") is not None:
         _check_against(values["profile"], values, prefix, faults)
+
+
+def _check_damping(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
+    """Note structural damping that is given twice, and ratios that are none."""
+    kinds = {"joint_damping": values.get("joint_damping") is not None,
+             "bending_damping": bool(values.get("bending_damping")),
+             "rayleigh_mass or rayleigh_stiffness":
+             bool(values.get("rayleigh_mass") or values.get("rayleigh_stiffness")),
+             "mode_damping": values.get("mode_damping") is not None}  # fmt: skip
+    given = [name for name, is_given in kinds.items() if is_given]
+    if len(given) > 1:
+        faults.add(f"{prefix}{given[0].split()[0]}", f"{' and '.join(given)} together",
+                   "one of them", "they all set the damping of bending: keep one")  # fmt: skip
+    ratios = values.get("mode_damping")
+    if ratios is not None and not ratios:
+        faults.add(f"{prefix}mode_damping", "an empty list", "a damping ratio for each mode")
+    for i, ratio in enumerate(ratios or (), start=1):
+        if ratio >= 1:
+            faults.add(f"{prefix}mode_damping[{i}]", f"{ratio:g}", "a damping ratio of at least 0 "
+                       "and less than 1")  # fmt: skip
 
 
 def _check_against(

@@ -18,7 +18,7 @@ from sympy.printing.latex import LatexPrinter
 
 from railride.lagrange import Signal
 
-GREEK = ("theta", "zeta", "mu")
+GREEK = ("theta", "zeta", "mu", "eta", "phi", "kappa", "rho", "alpha", "beta")
 BRACED = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}"  # with at most one pair inside
 LINE = 78  # characters of mathematics that fit on a line, commands counted as one
 
@@ -85,6 +85,10 @@ class Printer(LatexPrinter):
         dots = f"\\{'d' * order}ot" + ("" if letter.startswith("\\") else " ") if order else ""
         return dots + letter + (f"_{{{_index(index)}}}" if index else "")
 
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        del expr
+        return r"\pi"
+
     _print_Signal = _print_Coordinate = _print_Input = _print_Force = _print_Symbol  # noqa: N815
 
     def _print_Mul(self, expr: sp.Expr) -> str:
@@ -133,6 +137,8 @@ def natural(name: str) -> tuple[tuple[str, int], ...]:
 def _factor_key(factor: sp.Expr) -> tuple[Any, ...]:
     """Parameters (lengths last), coordinates and rates, functions, sums, second rates."""
     base = factor.as_base_exp()[0]
+    if base == sp.pi:
+        return -1, False, (), ""
     if not base.is_Symbol:
         return (3 if base.is_Add else 2), isinstance(base, sp.cos), (), str(base)
     if isinstance(base, Signal):

@@ -20,6 +20,10 @@ KEYS = {  # of parameter files that name one symbol without doubt
     "bending_frequency": "f_bending",
     "bending_damping": "zeta_bending",
     "bending_stiffness": "EI",
+    "shear_stiffness": "kappa_GA",
+    "rotary_inertia": "rho_I",
+    "rayleigh_mass": "alpha_R",
+    "rayleigh_stiffness": "beta_R",
     "joint_stiffness": "k_theta",
     "joint_damping": "c_theta",
 }
@@ -38,7 +42,8 @@ class ParameterValues:
         self.body, self.running_gear = body, running_gear
         self.independent: tuple[Parameter, ...] = (*body.parameters, *running_gear.parameters)
         known = {p.symbol for p in self.independent} | set(body.definitions)
-        self.dependent = sorted(_parameters_of(system) - known, key=lambda s: s.name)
+        left = _parameters_of(system) - known
+        self.dependent = sorted(left, key=lambda s: (len(s.name), s.name))
 
     def at(self, changes: Mapping[str, ArrayLike]) -> dict[str, Array]:
         """Values with those in ``changes`` (by symbol, see :meth:`symbol_of`) in their place.
@@ -55,12 +60,18 @@ class ParameterValues:
             values[name] = _as_numbers(name, value)
             _refuse_impossible(name, values[name], symbols.get(name))
         _refuse_unlike_shapes(values)
-        for name, definition in self._definitions.items():
-            if name not in changes:
-                values[name] = definition(values)[name][..., 0, 0]
+        self._define(values)
         self.body.check_values(values)
         left = [symbol for symbol in self.dependent if symbol.name not in changes]
-        return values | self.body.dependent_values(values, left)
+        values |= self.body.dependent_values(values, left)
+        self._define(values)  # those that follow from dependent ones
+        return values
+
+    def _define(self, values: dict[str, Array]) -> None:
+        """Put in the defined parameters of which all is known."""
+        for name, definition in self._definitions.items():
+            if name not in values and all(s.name in values for s in definition.symbols):
+                values[name] = definition(values)[name][..., 0, 0]
 
     def symbol_of(self, name: str) -> str:
         """The symbol behind a name: itself, or a key of parameter files that all bogies share.

@@ -79,7 +79,7 @@ def command(model: VehicleModel, form: str, nonlinear: bool = False) -> str:
     name, body = model.vehicle.name, model.vehicle.body
     shipped = name in shipped_vehicles()
     words = [f"railride derive --vehicle {name if shipped else 'FILE'}"]
-    words.append(f"--segments {model.body.segments}")
+    words.append(model.body.options)
     given = load_vehicle(name).body if shipped else body
     if body.joint_stiffness != given.joint_stiffness:
         words.append(f"--joint-stiffness {body.joint_stiffness:.10g}")
@@ -106,6 +106,7 @@ def _opening(model: VehicleModel, form: str, nonlinear: bool) -> list[Block]:
 MEANING = {
     "z_c": "height of the car body's mass centre",
     "theta_c": "pitch of the car body",
+    "eta_": "how far the car body's bending mode {} is out, where its shape is 1",
     "z_b": "height of bogie {}'s mass centre",
     "theta_b": "pitch of bogie {}",
     "z_": "height of node {} of the car body",

@@ -13,7 +13,8 @@ from railride.lagrange import Coordinate, Lagrangian, Signal
 from railride.linear import LinearModel
 
 DOTS = {0: "", 1: "\N{COMBINING DOT ABOVE}", 2: "\N{COMBINING DIAERESIS}"}
-GREEK = {"theta": "θ", "zeta": "ζ", "mu": "μ"}
+GREEK = {"theta": "θ", "zeta": "ζ", "mu": "μ", "eta": "η", "phi": "φ", "kappa": "κ", "rho": "ρ",
+         "alpha": "α", "beta": "β"}  # fmt: skip
 WIDTH = 100
 
 
@@ -27,6 +28,10 @@ class TextPrinter(StrPrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return symbol(expr)
+
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        del expr
+        return "π"
 
     _print_Signal = _print_Coordinate = _print_Input = _print_Force = _print_Symbol  # noqa: N815
 

@@ -17,13 +17,14 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from railride.bodies import BodyModel, Parameter, RigidBody, SegmentedBody
+from railride.bodies import BodyModel, Parameter
+from railride.bodies.choice import body_model
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.linear import LinearModel, linearise, output_rows
 from railride.numeric import Array, Matrices, MatrixFunction, symmetric_eigenvalues
 from railride.parameter_values import ParameterValues
-from railride.parameters import Vehicle, load_vehicle
+from railride.parameters import CarBody, Vehicle, load_vehicle
 from railride.plausibility import doubts
 from railride.running_gear import (
     RunningGear,
@@ -121,9 +122,11 @@ class VehicleModel:
 
     @property
     def meanings(self) -> dict[str, tuple[str, str]]:
-        """What parameters mean, and their units, by symbol; those that are defined are left out."""
-        found = {p.symbol.name: (p.meaning, p.unit) for p in self.parameters}
-        return found | {s.name: said for s, said in self.body.followers.items()}
+        """What parameters mean, and their units, by symbol; empty between others."""
+        known = self._values
+        dependent = (*self.body.definitions, *self.body.followers, *known.dependent)
+        found = {s.name: self.body.meaning(s) for s in dependent}
+        return found | {p.symbol.name: (p.meaning, p.unit) for p in known.independent}
 
     def values(self, **changes: ArrayLike) -> dict[str, Array]:
         """Every parameter's value by symbol, with those in ``changes`` put in their place.
@@ -293,22 +296,34 @@ def derive_vehicle(
     vehicle: Vehicle | str | Path,
     segments: int | None = None,
     *,
+    body: str | None = None,
+    modes: int | None = None,
     bending_frequency: float | None = None,
     joint_stiffness: float | None = None,
     bending_damping: float | None = None,
 ) -> VehicleModel:
-    """The model of a vehicle whose car body is cut into ``segments`` rigid segments.
+    """The model of a vehicle, its car body rigid, cut into segments, or a beam.
 
     Parameters
     ----------
     vehicle : the parameters; or the name of a shipped vehicle or a file, to be loaded.
     segments : N ≥ 1; 1 is the rigid body. Default: 4, or 1 where no bending stiffness is known.
+    body : "rigid", "segments" or "beam" (Euler-Bernoulli's; Timoshenko's where the vehicle has a
+        shear stiffness or rotary inertia). Default: as the segments say.
+    modes : how many bending modes a beam has, default 10.
     bending_frequency, joint_stiffness : Hz or N m/rad, instead of what the vehicle says.
     bending_damping : structural damping ratio of the first bending mode, instead of the vehicle's.
 
     Raises
     ------
-    InputError : N that is not a whole number ≥ 1; both of the two stiffnesses; values out of range.
+    InputError : a number of segments or modes that is none, or does not belong to the body; both of
+        the two stiffnesses; values out of range.
+
+    Examples
+    --------
+    >>> beam = derive_vehicle("cati2024", body="beam", modes=3)
+    >>> beam.bending_frequencies().round(2).tolist()
+    [9.6, 26.46, 51.88]
     """
     if bending_frequency is not None and joint_stiffness is not None:
         raise InputError(
@@ -316,46 +331,31 @@ def derive_vehicle(
             "other follows)"
         )
     vehicle = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
-    body = vehicle.body
-    if bending_frequency is not None or joint_stiffness is not None:
-        body = replace(
-            body,
-            bending_frequency=bending_frequency,
-            joint_stiffness=joint_stiffness,
-            bending_stiffness=None,
-        )
-    if bending_damping is not None:
-        body = replace(body, bending_damping=bending_damping, joint_damping=None)
-    known = (body.bending_frequency, body.joint_stiffness, body.bending_stiffness)
-    if segments is None:
-        segments = 4 if any(value is not None for value in known) else 1
-    if isinstance(segments, bool) or not isinstance(segments, int | np.integer) or segments < 1:
-        raise InputError(f"segments: found {segments!r}; expected a whole number of at least 1")
-    vehicle, remarks = replace(vehicle, body=body), list(doubts(vehicle))
-    if segments > 1:
-        try:
-            segmented = SegmentedBody(body, int(segments))
-        except InputError as error:
-            raise InputError(f"{vehicle.name}: {error}") from None
-        return VehicleModel(vehicle, segmented, (*remarks, *_inertia_remark(vehicle, segmented)))
     given = {
         "bending frequency": bending_frequency,
         "joint stiffness": joint_stiffness,
         "bending damping": bending_damping,
     }
+    vehicle = replace(vehicle, body=_bent(vehicle.body, *given.values()))
+    try:
+        model = body_model(vehicle.body, body, segments, modes)
+    except InputError as error:
+        raise InputError(f"{vehicle.name}: {error}") from None
+    remarks = [*doubts(vehicle), *(f"{vehicle.name}: {remark}" for remark in model.remarks)]
     idle = [name for name, value in given.items() if value is not None]
-    if idle:
+    if idle and model.kind == "rigid":
         remarks.append(f"the body is rigid: {' and '.join(idle)} given with it without effect")
-    return VehicleModel(vehicle, RigidBody(body), tuple(remarks))
+    return VehicleModel(vehicle, model, tuple(remarks))
 
 
-def _inertia_remark(vehicle: Vehicle, body: SegmentedBody) -> list[str]:
-    """What became of the pitch inertia, where equal rods do not have the one that was given."""
-    uniform, given = vehicle.body.mass * vehicle.body.length**2 / 12, vehicle.body.pitch_inertia
-    if body.inertia != "rods" or abs(uniform - given) <= 1e-3 * given:
-        return []
-    remark = (
-        f"{vehicle.name}: the car body's pitch inertia of {given:.4g} kg m^2 is not used: "
-        f'{body.segments} equal rods have {uniform:.4g} kg m^2 (inertia = "graded" holds it)'
-    )
-    return [remark]
+def _bent(
+    body: CarBody, frequency: float | None, stiffness: float | None, damping: float | None
+) -> CarBody:
+    """The car body with what is given in place of its own bending."""
+    if frequency is not None or stiffness is not None:
+        body = replace(body, bending_frequency=frequency, joint_stiffness=stiffness,
+                       bending_stiffness=None)  # fmt: skip
+    if damping is not None:
+        body = replace(body, bending_damping=damping, joint_damping=None, rayleigh_mass=0.0,
+                       rayleigh_stiffness=0.0, mode_damping=None)  # fmt: skip
+    return body

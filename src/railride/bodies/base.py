@@ -70,9 +70,19 @@ class BodyModel(ABC):
         """What the body is, as a phrase: "a car body of 4 rigid segments"."""
 
     @property
+    def options(self) -> str:
+        """The options that choose it on the command line."""
+        return f"--segments {self.segments}"
+
+    @property
     def segments(self) -> int | None:
         """The number N of rigid segments; None of a body that is not made of them."""
         return None
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the user should know of how the body was made."""
+        return ()
 
     @property
     def mode_count(self) -> int | None:
@@ -101,6 +111,10 @@ class BodyModel(ABC):
         They may be given in place of what they follow from, else :meth:`dependent_values` knows.
         """
         return {}
+
+    def meaning(self, symbol: sp.Symbol) -> tuple[str, str]:
+        """Meaning and unit of a dependent parameter; empty where it only stands between others."""
+        return self.followers.get(symbol, ("", ""))
 
     def dependent_values(
         self, values: Mapping[str, Array], wanted: Iterable[sp.Symbol]

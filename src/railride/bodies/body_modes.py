@@ -41,12 +41,13 @@ class BodyModes:
     mass : m_c, kg. mass_centre : e_c, m. length : L, m.
     pitch_inertia : I_c, kg m², about the mass centre.
     frequencies : (n,) natural frequencies of the free body, Hz, ascending.
-    damping : (n,) damping ratios, at least 0 and less than 1.
+    damping : (n,) damping ratios, at least 0; None where the car body says what they are.
     shapes : x, m, of any shape (...) → φ_i(x), (n, ...).
     kind : what made them: "beam", "fe" or "modes" (from outside).
     slopes : as ``shapes``, dφ_i/dx in 1/m, where known.
     products : (n + 2, n + 2), kg and kg m, of the motions 1, x - e_c, φ_1 … φ_n with one another
         (see the module), as far as the maker of the modes knows the mass distribution.
+    knots : places within the body at which the shapes are not smooth, such as nodes of elements.
     remarks : what a user must know of them.
 
     Raises
@@ -69,16 +70,18 @@ class BodyModes:
     pitch_inertia: float
     length: float
     frequencies: Array
-    damping: Array
+    damping: Array | None
     shapes: Callable[[ArrayLike], Array]
     kind: str
     slopes: Callable[[ArrayLike], Array] | None = None
     products: Array | None = None
+    knots: tuple[float, ...] = ()
     remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("frequencies", "damping"):
-            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=float))
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=float))
         faults = Faults("modes of the car body")
         self._check_rigid(faults)
         self._check_modes(faults)
@@ -106,7 +109,7 @@ class BodyModes:
         return replace(
             self,
             frequencies=self.frequencies[:n],
-            damping=self.damping[:n],
+            damping=None if self.damping is None else self.damping[:n],
             shapes=lambda x: shapes(x)[:n],
             slopes=None if slopes is None else lambda x: slopes(x)[:n],
             products=None if products is None else products[: n + 2, : n + 2],
@@ -132,12 +135,13 @@ class BodyModes:
         for i in np.flatnonzero(np.diff(f) < 0):
             faults.add(f"mode {i + 2}", f"{f[i + 1]:g} Hz after {f[i]:g} Hz", "ascending natural "
                        "frequencies")  # fmt: skip
+        if zeta is None:
+            return
         if zeta.shape != f.shape:
             faults.add("damping", f"{zeta.size} ratios of {f.size} modes", "one for each mode")
             return
-        for i in np.flatnonzero(~((zeta >= 0) & (zeta < 1))):
-            faults.add(f"mode {i + 1}", f"a damping ratio of {zeta[i]:g}", "a ratio of at least 0 "
-                       "and less than 1", "fewer modes, or less damping")  # fmt: skip
+        for i in np.flatnonzero(~(np.isfinite(zeta) & (zeta >= 0))):
+            faults.add(f"mode {i + 1}", f"a damping ratio of {zeta[i]:g}", "one of at least 0")
 
     def _check_shapes(self, faults: Faults) -> None:
         for name, function in (("shapes", self.shapes), ("slopes", self.slopes)):

@@ -22,6 +22,7 @@ from sympy import Rational, asin, cos, sin
 
 from railride.bodies.base import BodyModel, Parameter, Place
 from railride.bodies.rigid import I_c, e_c, m_c
+from railride.bodies.structural_damping import MEANING, zeta_bending
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
 from railride.numeric import Array
@@ -29,7 +30,7 @@ from railride.parameters import Load
 
 L, k_theta, EI = sp.symbols("L k_theta EI", positive=True)
 f_bending, J_s = sp.symbols("f_bending J_s", positive=True)
-c_theta, zeta_bending = sp.symbols("c_theta zeta_bending", nonnegative=True)
+c_theta = sp.Symbol("c_theta", nonnegative=True)
 mu_0, mu_1, mu_2 = sp.symbols("mu_0 mu_1 mu_2", real=True)
 
 ROD_TOLERANCE = 0.05  # of I_c: within it the segments are equal rods
@@ -211,8 +212,7 @@ class SegmentedBody(BodyModel):
         if body.joint_damping is not None:
             found.append(Parameter(c_theta, "joint damping", "N m s/rad", body.joint_damping))
         else:
-            meaning = "structural damping ratio of the first bending mode"
-            found.append(Parameter(zeta_bending, meaning, "", body.bending_damping))
+            found.append(Parameter(zeta_bending, MEANING, "", body.bending_damping))
         return tuple(found)
 
     @property
@@ -309,6 +309,18 @@ class SegmentedBody(BodyModel):
         half = Rational(1, 2)
         kappa_ell = (half + xi) * bend[0] + (half - xi) * bend[1]
         return polygon + kappa_ell * ell * (xi**2 / 2 - Rational(1, 24))
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What became of the pitch inertia, where equal rods do not have the one given."""
+        uniform, given = self.body.mass * self.body.length**2 / 12, self.body.pitch_inertia
+        if self.inertia != "rods" or abs(uniform - given) <= 1e-3 * given:
+            return ()
+        remark = (
+            f"the car body's pitch inertia of {given:.4g} kg m^2 is not used: {self.number} "
+            f'equal rods have {uniform:.4g} kg m^2 (inertia = "graded" holds it)'
+        )
+        return (remark,)
 
     def check_moved(self, place: Place, values: Mapping[str, Array]) -> None:
         """Refuse a place on another segment than the one whose height was taken."""

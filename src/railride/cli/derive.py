@@ -155,7 +155,8 @@ def _as_table(model: VehicleModel, linear: LinearModel, nonlinear: bool) -> str:
     from railride import modal, text
 
     values = model.values()
-    meanings, dependent = model.meanings, ("follows from the others", "")
+    meanings = {name: said for name, said in model.meanings.items() if any(said)}
+    dependent = ("follows from the others", "")
     columns = [("symbol", ""), ("value", ".6g"), ("unit", ""), ("meaning", "")]
     rows = [
         (text.symbol(_symbol(name)), float(value), *reversed(meanings.get(name, dependent)))

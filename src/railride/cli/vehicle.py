@@ -17,9 +17,11 @@ if TYPE_CHECKING:
     from railride.parameters import Vehicle
     from railride.vehicle import VehicleModel
 
-BODIES = ("rigid", "segments")
+BODIES = ("rigid", "segments", "beam")
+MODAL = ("beam",)  # those that are made of modes
 DEFAULT = "cati2024"
 MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
+MOST_MODES = 200  # likewise
 
 VehicleOption = Annotated[
     str, typer.Option("--vehicle", metavar="NAME|FILE", rich_help_panel=BODY,
@@ -30,10 +32,13 @@ SegmentsOption = Annotated[
                              "bending is known.")]  # fmt: skip
 BodyOption = Annotated[
     str | None, typer.Option("--body", metavar="|".join(BODIES), rich_help_panel=BODY,
-                             help="The kind of car body.")]  # fmt: skip
+                             help="The kind of car body; default segments.")]  # fmt: skip
+ModesOption = Annotated[
+    str | None, typer.Option("--modes", metavar="N", rich_help_panel=BODY,
+                             help="Bending modes of a beam; default 10.")]  # fmt: skip
 FrequencyOption = Annotated[
     str | None, typer.Option("--bending-frequency", metavar="HZ", rich_help_panel=BODY,
-                             help="Calibrate the joints to this free-free first bending "
+                             help="Calibrate the body to this free-free first bending "
                              "frequency.")]  # fmt: skip
 StiffnessOption = Annotated[
     str | None, typer.Option("--joint-stiffness", metavar="VALUE", rich_help_panel=BODY,
@@ -52,6 +57,7 @@ class VehicleChoice:
     vehicle: VehicleOption = DEFAULT
     segments: SegmentsOption = None
     body: BodyOption = None
+    modes: ModesOption = None
     bending_frequency: FrequencyOption = None
     joint_stiffness: StiffnessOption = None
     bending_damping: DampingOption = None
@@ -74,6 +80,8 @@ class VehicleChoice:
         damping = given.number("--bending-damping", self.bending_damping, "")
         if self.body is not None:
             given.choice("--body", self.body, BODIES)
+        self._check_kind(given)
+        modes = given.whole("--modes", self.modes, 1, MOST_MODES)
         if self.body == "rigid" and N is not None and N > 1:
             given.faults.add("--body rigid", f"--segments {N} with it", "one segment",
                              "leave one of the two out")  # fmt: skip
@@ -91,8 +99,21 @@ class VehicleChoice:
             _refuse_unknown_bending(found, N, self.body)
         from railride.vehicle import derive_vehicle
 
-        return derive_vehicle(found, 1 if self.body == "rigid" else N, bending_frequency=frequency,
+        return derive_vehicle(found, N, body=self.body, modes=modes, bending_frequency=frequency,
                               joint_stiffness=stiffness, bending_damping=damping)  # fmt: skip
+
+    def _check_kind(self, given: Arguments) -> None:
+        """Note options that do not belong to the kind of body."""
+        if self.body in MODAL:
+            kind = f"--body {self.body}"
+            if self.segments is not None:
+                given.conflict("--segments", kind, "--modes says how fine it is")
+            if self.joint_stiffness is not None:
+                given.conflict("--joint-stiffness", kind, "give --bending-frequency")
+        elif self.modes is not None:
+            given.faults.add("--modes", f"--body {self.body} with it" if self.body else "no --body "
+                             "with it", "a body that is made of modes",
+                             "such as --body beam")  # fmt: skip
 
 
 def takes_vehicle(command: Callable[..., None]) -> Callable[..., None]:
@@ -113,11 +134,11 @@ def takes_vehicle(command: Callable[..., None]) -> Callable[..., None]:
 
 def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:
     """Several segments need a stiffness between them."""
-    known = (found.body.bending_frequency, found.body.joint_stiffness, found.body.bending_stiffness)
-    if any(value is not None for value in known):
+    if found.body.bends:
         return
-    if (N or 1) > 1 or (N is None and body == "segments"):
-        asked = f"--segments {N}" if N else "--body segments"
+    if (N or 1) > 1 or (N is None and body not in (None, "rigid")):
+        asked = f"--segments {N}" if N else f"--body {body}"
+        give = "--bending-frequency" + ("" if body in MODAL else " or --joint-stiffness")
         raise InputError(f"vehicle {found.name}: found {asked} for a car body whose bending is not "
-                         "known; expected its stiffness (give --bending-frequency or "
-                         "--joint-stiffness, or take one segment)")  # fmt: skip
+                         f"known; expected its stiffness (give {give}, or take one segment: the "
+                         "rigid body)")  # fmt: skip
