@@ -156,7 +156,12 @@ class BodyModel(ABC):
 
     def check_moved(self, place: Place, values: Mapping[str, Array]) -> None:
         """Raise :class:`InputError` unless a place keeps to where its height was taken."""
-        self.check_point(float(np.max(np.abs(place.value(values)))))
+        x, length = place.value(values), np.asarray(values.get("L", self.body.length))
+        if not np.all(np.abs(x) <= length / 2 * (1 + 1e-12)):
+            raise InputError(
+                f"{place.name}: found a position of up to {np.max(np.abs(x)):g} m from the middle "
+                f"of a body of {np.min(length):g} m; expected one on the body"
+            )
 
     def check_point(self, at: float) -> None:
         """Raise :class:`InputError` unless the point is on the body."""

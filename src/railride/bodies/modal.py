@@ -60,6 +60,7 @@ class Shape(sp.Symbol):
     modes: tuple[int, ...]
     span: tuple[Place, Place]
     power: int
+    place: str
 
     def __new__(  # noqa: D102 - the class says it
         cls, modes: Sequence[int], span: tuple[Place, Place], power: int = 0
@@ -68,6 +69,7 @@ class Shape(sp.Symbol):
         name = "_".join([head, *map(str, modes), span[0].index])
         made: Self = sp.Symbol.__xnew__(cls, name, real=True)
         made.modes, made.span, made.power = tuple(modes), span, power
+        made.place = str(span)
         return made
 
     @property
@@ -85,7 +87,7 @@ class Shape(sp.Symbol):
         return (self.modes, self.span, self.power), {}
 
     def _hashable_content(self) -> tuple[Any, ...]:
-        return (*super()._hashable_content(), str(self.span))
+        return (*super()._hashable_content(), self.place)
 
     @classmethod
     def class_key(cls) -> Any:
@@ -318,6 +320,8 @@ class ModalBody(BodyModel):
         self, span: tuple[Place, Place], values: Mapping[str, Array]
     ) -> tuple[Array, Array, Array]:
         """Points x (..., q) of a span, their weights (q,), and the shapes there, (n, ..., q)."""
+        for place in span:
+            self.check_moved(place, values)
         rear, front = (place.value(values)[..., np.newaxis] for place in span)
         knots = [(k - span[0].at) / (span[1].at - span[0].at) for k in self.modes.knots
                  if span[0].at < k < span[1].at]  # fmt: skip

@@ -60,7 +60,8 @@ class ShearBeam:
 
     @staticmethod
     def _at(coefficients: Array, u: ArrayLike) -> Array:
-        basis = legendre.legvander(np.asarray(u, dtype=float), coefficients.shape[-1] - 1)
+        points, terms = np.asarray(u, dtype=float), coefficients.shape[-1]
+        basis = legendre.legvander(points, terms - 1).reshape(*points.shape, terms)
         return np.asarray(np.moveaxis((coefficients * basis[..., np.newaxis, :]).sum(-1), -1, 0))
 
 

@@ -43,7 +43,7 @@ def shapes(count: int, u: ArrayLike) -> Array:
     """φ_1 … φ_count at u = x/L, of any shape (...): (count, ...).
 
     >>> shapes(2, [-0.5, 0.0, 0.5]).round(4).tolist()
-    [[2.0, -1.2157, 2.0], [-2.0, 0.0, 2.0]]
+    [[2.0, -1.2156, 2.0], [-2.0, 0.0, 2.0]]
     """
     return _sums(count, np.asarray(u, dtype=float), slope=False)
 
