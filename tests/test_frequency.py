@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import mpmath
 import numpy as np
 import pytest
 from vehicles import assemble, mirrored, paper_coach, random_model
@@ -49,6 +50,40 @@ def test_equal_to_solving_at_every_frequency(model, at):
     found = track_response(model, [model.floor(at, "polygon")], V, f)[0]
     expected = directly(model, V, f, at)
     assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
+
+
+def in_40_digits(model, speed, f, at):
+    """The same with mpmath, from the same matrices."""
+    m, x = model.matrices(), model.vehicle.wheelset_positions
+    row = model.output_rows([model.floor(at, "polygon", 0)])["d"][0]
+    with mpmath.workdps(40):
+        s = 2j * mpmath.pi * mpmath.mpf(f)
+        A = s**2 * mpmath.matrix(m.M) + s * mpmath.matrix(m.C) + mpmath.matrix(m.K)
+        delays = [(mpmath.mpf(x[0]) - mpmath.mpf(place)) / mpmath.mpf(speed) for place in x]
+        w = mpmath.matrix([mpmath.exp(-s * delay) for delay in delays])
+        q = mpmath.lu_solve(A, (mpmath.matrix(m.K_w) + s * mpmath.matrix(m.C_w)) * w)
+        return complex(s**2 * (mpmath.matrix([row.tolist()]) * q)[0])
+
+
+def test_beside_a_pole_with_next_to_no_damping():
+    """Bending 2 of the paper's coach (damping ratio 2e-6), where it moves most."""
+    model = paper_coach(4)
+    mode = next(m for m in modes(model) if m.label == "bending 2")
+    line = mode.eigenvalue.imag / (2 * np.pi)
+    for f in line * (1 + mode.damping_ratio * np.array([0.0, 1.0, -30.0, 3000.0])):
+        found = track_response(model, [model.floor(12.0, "polygon")], V, [f])[0, 0]
+        assert abs(found / in_40_digits(model, V, f, 12.0) - 1) < 1e-10
+
+
+def test_on_the_line_of_an_undamped_mode_there_is_no_response():
+    model = paper_coach(4).changed(c_1=0.0, c_2=0.0)
+    for mode in modes(model):
+        f = mode.frequency_hz
+        with pytest.raises(InputError, match=rf"found {f:.6g} Hz, where a mode without damping"):
+            frequency_response(model, frequency=[0.5, f], speed=V)
+        beside = f * (1 + 1e-6)
+        found = track_response(model, [model.floor(3.0, "polygon")], V, [beside])[0, 0]
+        assert abs(found / in_40_digits(model, V, beside, 3.0) - 1) < 1e-8
 
 
 def test_equal_for_changed_parameters_and_other_derivatives():
