@@ -244,7 +244,10 @@ def test_modulus_margin_is_the_distance_to_instability():
             r"(heave|pitch) at \d.* Hz grows with .*1/s; expected every motion to decay",
         ),
         ({"gain": 3e6, "bandwidth": 3.0}, r"loop skyhook: .*unstable: .* Hz grows"),
-        ({"gain": np.nan}, "gain: found nan"),
+        ({"gain": np.nan}, "gain: found nan N s/m; expected a finite number"),
+        ({"gain": "a"}, "gain: found 'a'; expected a finite number .in N s/m"),
+        ({"gain": None}, "gain: found None"),
+        ({"gain": 1e5, "bandwidth": "10"}, "bandwidth: found '10'; expected a finite number above"),
         ({"gain": 1e5, "bandwidth": 0.0}, "bandwidth: found 0.0 Hz"),
         ({"gain": 1e5, "high_pass": -1.0}, "high_pass: found -1.0 Hz"),
         ({"gain": 1e5, "order": 3}, "order: found 3; expected 1 or 2"),
@@ -282,8 +285,9 @@ def test_controllers_of_other_signals_are_refused():
                      outputs=["f_1", "f_2"])  # fmt: skip
     with pytest.raises(InputError, match="continuous time"):
         Loop("mine", model, law, skyhook(model, 1.0).measured)
-    with pytest.raises(InputError, match="output: found 'door'"):
-        skyhook(model, 1e4).closed(["door"])
+    for door in (["door"], "door"):
+        with pytest.raises(InputError, match="output: found 'door'"):
+            skyhook(model, 1e4).closed(door)
     with pytest.raises(InputError, match="different vehicles"):
         rate_loops([skyhook(model, 1e4, name="a"), skyhook(paper_coach(2), 1e4, name="b")], V, LOW)
     with pytest.raises(InputError, match="found none"):
@@ -470,8 +474,9 @@ def three_bogies():
 
 @pytest.mark.parametrize("name", ["acceleration", "travel", "force", "sensor_noise"])
 def test_lqg_refuses_sizes_that_are_none(name):
-    with pytest.raises(InputError, match=f"{name}: found 0.0; expected a finite value above 0"):
-        lqg(paper_coach(1), V, LOW, **{name: 0.0})
+    for value in (0.0, np.inf, "much"):
+        with pytest.raises(InputError, match=f"{name}: found {value!r}; expected a finite number"):
+            lqg(paper_coach(1), V, LOW, **{name: value})
 
 
 def test_lqg_needs_a_point_and_a_speed():
@@ -595,6 +600,7 @@ def test_semi_active_table_and_remarks():
     [
         ({"c_max": 1e4, "c_min": 2e4}, "c_min: found 20000 N s/m; expected at most c_max"),
         ({"c_max": np.nan, "c_min": 0.0}, "c_max: found nan"),
+        ({"c_max": "hard", "c_min": 0.0}, "c_max: found 'hard'"),
         ({"c_max": 1e5, "c_min": -1.0}, "c_min: found -1.0"),
         ({"c_max": 1e5, "c_min": 1e4, "length": -5.0}, "length"),
         ({"c_max": 1e5, "c_min": 1e4, "at": (50.0,)}, "off the body"),

@@ -58,6 +58,12 @@ def test_a_slow_wave_lifts_the_car_and_accelerates_it_half_a_turn_ahead():
     assert_allclose(acceleration.phase_deg, 180 + height.phase_deg, rtol=1e-9)
 
 
+def test_one_speed_and_one_point_need_no_list():
+    (listed,) = bode(paper_coach(1), [V], [1.0], at=[3.0])
+    (plain,) = bode(paper_coach(1), V, [1.0], at=3.0)
+    assert_array_equal(plain.H, listed.H)
+
+
 def test_a_point_may_be_asked_for_twice():
     first, second = bode(paper_coach(1), [V], [1.0], at=[0.0, 0.0])
     assert_array_equal(first.H, second.H)
@@ -73,6 +79,9 @@ def test_a_table_with_units():
     ("speeds", "more", "message"),
     [
         ([], {}, "speeds: found none"),
+        ("fast", {}, "speeds: found 'fast'; expected numbers, in m/s"),
+        ([None], {}, "speed"),
+        ([V], {"at": "middle"}, "at: found 'middle'; expected numbers, in m"),
         ([V, 0.0], {}, "speed"),
         ([V], {"at": []}, "at: found none"),
         ([V], {"at": [13.0]}, "off the body"),

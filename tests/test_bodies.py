@@ -234,6 +234,9 @@ def test_points_off_the_body_and_other_readings_are_refused(segments):
     model = paper_coach(segments)
     model.floor(12.0)
     model.floor(-12.0)
+    for at in ("x", None, np.nan):
+        with pytest.raises(InputError, match=rf"position {at!r}( m)?: found a point off the body"):
+            model.floor(at)
     for at in (12.1, -12.1, np.nan, np.inf):
         with pytest.raises(InputError, match=r"position .*-12 and 12"):
             model.floor(at)

@@ -357,6 +357,19 @@ def test_bad_input_is_refused(given, message):
         frequency_response(paper_coach(2), **arguments)
 
 
+def test_one_output_needs_no_list():
+    model, name = paper_coach(2), "secondary_1_deflection"
+    H = frequency_response(model, [name], [1.0, 2.0], speed=V)
+    for one in (name, model.outputs[name]):
+        found = frequency_response(model, one, [1.0, 2.0], speed=V)
+        assert found.output_labels == H.output_labels
+        np.testing.assert_array_equal(found.frdata, H.frdata)
+        np.testing.assert_array_equal(track_response(model, one, V, [1.0, 2.0]), H.frdata[:, 0])
+    assert state_space(model, name).output_labels == [name]
+    with pytest.raises(InputError, match="found 'floor'"):
+        frequency_response(model, "floor", [1.0], speed=V)
+
+
 def test_an_unstable_vehicle_has_no_frequency_response():
     m = paper_coach(2).matrices()
     with pytest.raises(InputError, match="unstable"):

@@ -32,6 +32,7 @@ from railride.frequency import (
 )
 from railride.modal import Mode, modes
 from railride.numeric import Array
+from railride.quantities import several
 from railride.spectra import check_speed
 from railride.vehicle import Output, VehicleModel
 
@@ -96,10 +97,10 @@ class BodeResponse:
 
 def bode(
     model: VehicleModel,
-    speeds: Sequence[float],
+    speeds: float | Sequence[float],
     frequency: ArrayLike | None = None,
     *,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = (0.0,),
     floor: str = "smooth",
     derivative: int = 2,
     **changes: ArrayLike,
@@ -108,7 +109,8 @@ def bode(
 
     Parameters
     ----------
-    speeds : m/s, each > 0. frequency : Hz, ascending, > 0; default 2,000 from 0.2 to 40 Hz.
+    speeds : m/s, one or several, each > 0.
+    frequency : Hz, ascending, > 0; default 2,000 from 0.2 to 40 Hz.
     at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
     derivative : of the floor's height: 2 is its acceleration, 0 its displacement.
     changes : parameter values in place of the vehicle's.
@@ -126,7 +128,7 @@ def bode(
     >>> [(z.cause, z.distance, z.frequency.round(3).tolist()) for z in found.zeros]
     [('bogie spacing', 17.5, [1.587, 4.762])]
     """
-    speeds, points = list(speeds), [float(x) for x in at]
+    speeds, points = several(speeds, "speeds", "m/s"), several(at, "at", "m")
     if not speeds or not points:
         raise InputError(f"{'speeds' if not speeds else 'at'}: found none; expected at least one")
     for speed in speeds:

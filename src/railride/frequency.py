@@ -89,7 +89,7 @@ def triangular(m: Matrices) -> Triangular:
 
 def track_response(
     model: VehicleModel,
-    outputs: Sequence[Output | str],
+    outputs: Output | str | Sequence[Output | str],
     speed: float,
     frequency: ArrayLike,
     **changes: ArrayLike,
@@ -110,7 +110,7 @@ def track_response(
 
 def responses(
     model: VehicleModel,
-    outputs: Sequence[Output | str] | None,
+    outputs: Output | str | Sequence[Output | str] | None,
     sources: Sequence[str],
     frequency: ArrayLike,
     *,
@@ -122,8 +122,10 @@ def responses(
     Arguments as for :func:`frequency_response`; the frequencies in any order.
     """
     omega = 2 * np.pi * check_frequency(frequency)
+    if outputs is None or isinstance(outputs, Output | str):
+        outputs = [FLOOR if outputs is None else outputs]
     # One by one: a name may come twice here, where nothing is called by its name.
-    chosen = [chosen_outputs(model, [y])[0] for y in ([FLOOR] if outputs is None else outputs)]
+    chosen = [chosen_outputs(model, y)[0] for y in outputs]
     excite = [_excitation(model, source, speed) for source in sources]
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
     form = triangular(m)
@@ -154,7 +156,7 @@ def _lost(form: Triangular, omega: Array) -> Array:
     return np.asarray(moved / np.maximum(away, moved))
 
 
-def _states(form: Triangular, m: Matrices, s: Complex, F: Complex, lost: Array) -> Complex:
+def _states(form: Triangular, m: Matrices, s: Complex, F: NDArray[Any], lost: Array) -> Complex:
     """The states under forces F (n, F), refined where ``lost`` tells: (states, F)."""
     y = form.states(s, form.right @ F)
     near = np.flatnonzero(lost > _TELLS)
@@ -178,7 +180,7 @@ def _refuse_poles(omega: Array) -> None:
 
 def frequency_response(
     model: VehicleModel,
-    outputs: Sequence[Output | str] | None = None,
+    outputs: Output | str | Sequence[Output | str] | None = None,
     frequency: ArrayLike | None = None,
     *,
     speed: float | None = None,
@@ -189,7 +191,7 @@ def frequency_response(
 
     Parameters
     ----------
-    outputs : outputs or their names (``model.outputs``, ``model.floor(...)``); default: the
+    outputs : one or several, or their names (``model.outputs``, ``model.floor(...)``); default: the
         floor's acceleration over the middle.
     frequency : in Hz, ascending, > 0; default 2,000 from 0.2 to 40 Hz. (python-control counts in
         rad/s: ``response.omega``.)

@@ -1,18 +1,25 @@
-"""Records of quantities: each field says its unit and what its numbers must be, and is checked."""
+"""Records of quantities: each field says its unit and what its numbers must be, and is checked.
+
+And the numbers that a caller gives, checked likewise.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import Field, fields
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from railride.errors import Faults
+from railride.errors import Faults, InputError
 from railride.toml_tables import expected_sign, finite_number, shown
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
+    from numpy.typing import ArrayLike
 
 ONE, LIST, EITHER = "one", "list", "either"
+_EXPECTED = {"": "a finite number", "> 0": "a finite number above 0",
+             ">= 0": "a finite number, 0 or more"}  # fmt: skip
 
 
 def si(unit: str, sign: str = "", many: str = ONE) -> dict[str, str]:
@@ -57,3 +64,37 @@ def checked_numbers(record: DataclassInstance, faults: Faults) -> dict[str, Any]
             good[item.name] = numbers if several else numbers[0]
             object.__setattr__(record, item.name, good[item.name])
     return good
+
+
+def check_number(faults: Faults, where: str, value: object, sign: str = "", unit: str = "") -> None:
+    r"""Note an argument that is no finite number of its sign: "> 0", ">= 0", or "" for any.
+
+    >>> faults = Faults("skyhook")
+    >>> check_number(faults, "gain", "a", "> 0", "N s/m")
+    >>> check_number(faults, "bandwidth", -3.0, "> 0", "Hz")
+    >>> print(*faults.found, sep="\n")
+    gain: found 'a'; expected a finite number above 0 (in N s/m)
+    bandwidth: found -3.0 Hz; expected a finite number above 0
+    """
+    if not expected_sign(finite_number(value), sign):
+        return
+    if isinstance(value, Real):
+        faults.add(where, f"{value} {unit}".rstrip(), _EXPECTED[sign])
+    else:
+        faults.add(where, repr(value), _EXPECTED[sign], f"in {unit}" if unit else "")
+
+
+def several(values: ArrayLike, where: str, unit: str = "SI units") -> list[float]:
+    """One number or several as a list.
+
+    Raises InputError, naming the argument ``where``, for what are no numbers.
+
+    >>> several(40.0, "speeds"), several([40.0, 50.0], "speeds")
+    ([40.0], [40.0, 50.0])
+    """
+    import numpy as np
+
+    try:
+        return [float(value) for value in np.atleast_1d(np.asarray(values, dtype=float))]
+    except (TypeError, ValueError):
+        raise InputError(f"{where}: found {values!r}; expected numbers, in {unit}") from None

@@ -18,6 +18,7 @@ import numpy as np
 from railride.comfort import ContinuousComfort, continuous_comfort_of, few_blocks, indices
 from railride.errors import Faults, InputError
 from railride.numeric import Array
+from railride.quantities import several
 from railride.scales import levels, paper_level, scale_remarks
 from railride.spectra import Spectrum, check_speed, coverage_remark, spectrum
 from railride.stochastic import (
@@ -184,7 +185,7 @@ def ride(
     >>> ride(model, "erri_low", [200 / 3.6], floor="polygon", spectral=True).cases[0].level
     'medium'
     """
-    speeds, at = _several(speeds, "speeds"), _several(at, "at")
+    speeds, at = several(speeds, "ride: speeds", "m/s"), several(at, "ride: at", "m")
     _check_arguments(model, speeds, at, length, rate)
     source, weighted_by = load_track(track), weighting(weight)
     road = None if spectral else ridden_track(source, speeds, length, seed)
@@ -379,14 +380,6 @@ def _section(source: Spectrum | Track, length: float) -> list[str]:
         return []
     rated = f"{source.end - length:g} to {source.end:g} m"
     return [f"rated are the last {length:g} m of {source.name}, {rated} of {source.length:g} m"]
-
-
-def _several(values: float | Sequence[float], name: str) -> list[float]:
-    """One number or several as a list."""
-    try:
-        return [float(value) for value in np.atleast_1d(np.asarray(values, dtype=float))]
-    except (TypeError, ValueError):
-        raise InputError(f"ride: {name}: found {values!r}; expected numbers in SI units") from None
 
 
 def _check_arguments(

@@ -47,7 +47,7 @@ class System:
 
 def system_arrays(
     model: VehicleModel,
-    outputs: Sequence[Output | str] | None = None,
+    outputs: Output | str | Sequence[Output | str] | None = None,
     inputs: str = "rates",
     **changes: ArrayLike,
 ) -> System:
@@ -82,7 +82,7 @@ def system_arrays(
 
 def state_space(
     model: VehicleModel,
-    outputs: Sequence[Output | str] | None = None,
+    outputs: Output | str | Sequence[Output | str] | None = None,
     inputs: str = "rates",
     **changes: ArrayLike,
 ) -> control.StateSpace:
@@ -90,7 +90,7 @@ def state_space(
 
     Parameters
     ----------
-    outputs : outputs or their names (``model.outputs``, ``model.floor(...)``); default: the
+    outputs : one or several, or their names (``model.outputs``, ``model.floor(...)``); default: the
         floor's acceleration over the middle.
     inputs : "rates": u = (w, ẇ, f), named w_1 …, dw_1 …, f_1 …, in m, m/s and N; "elevation":
         u = (w, f), for outputs that do not feel ẇ directly.
@@ -116,9 +116,9 @@ def state_space(
 
 
 def chosen_outputs(
-    model: VehicleModel, outputs: Sequence[Output | str] | None = None
+    model: VehicleModel, outputs: Output | str | Sequence[Output | str] | None = None
 ) -> list[Output]:
-    """Outputs by name or as they are; the floor's acceleration over the middle if None.
+    """One output or several, by name or as they are; the floor's acceleration at x = 0 if None.
 
     Raises
     ------
@@ -126,7 +126,9 @@ def chosen_outputs(
     """
     known = {"floor_acceleration": None, **model.outputs}
     chosen = []
-    for output in ["floor_acceleration"] if outputs is None else outputs:
+    if outputs is None:
+        outputs = "floor_acceleration"
+    for output in [outputs] if isinstance(outputs, Output | str) else outputs:
         if not isinstance(output, Output) and output not in known:
             raise InputError(f"output: found {output!r}; expected one of {', '.join(known)}, or a "
                              "point of the floor from model.floor(at=…)")  # fmt: skip

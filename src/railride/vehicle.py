@@ -206,6 +206,7 @@ class VehicleModel:
         kinds = {0: ("displacement", "m"), 1: ("velocity", "m/s"), 2: ("acceleration", "m/s^2")}
         if derivative not in kinds:
             raise InputError(f"derivative: found {derivative}; expected 0, 1 or 2")
+        self.body.check_point(at)
         kind, unit = kinds[derivative]
         name = f"floor_{kind}" + _where(at) + ("_polygon" if reading == "polygon" else "")
         height = Coordinate("z_floor")

@@ -132,7 +132,9 @@ class Loop:
         measured = tuple(signals.get(output.name, output) for output in self.measured)
         return replace(self, model=model, measured=measured)
 
-    def closed(self, outputs: Sequence[Output | str] | None = None) -> control.StateSpace:
+    def closed(
+        self, outputs: Output | str | Sequence[Output | str] | None = None
+    ) -> control.StateSpace:
         """The loop from w_1 …, dw_1 … to the outputs asked for and, after them, the forces f_b.
 
         The passive vehicle has no forces.
@@ -149,6 +151,8 @@ class Loop:
         import control
 
         known = suspension_signals(self.model)
+        if isinstance(outputs, Output | str):
+            outputs = [outputs]
         asked = None if outputs is None else [
             known.get(o, o) if isinstance(o, str) else o for o in outputs
         ]  # fmt: skip

@@ -31,6 +31,7 @@ from railride.active.signals import suspension_signals
 from railride.active.skyhook import actuator_dynamics
 from railride.errors import Faults, InputError
 from railride.numeric import Array
+from railride.quantities import check_number
 from railride.spectra import Spectrum, check_speed, temporal
 from railride.statespace import state_space
 from railride.vehicle import VehicleModel
@@ -130,8 +131,7 @@ class _Design:
 def _check(source: str, **values: float) -> None:
     faults = Faults(source)
     for name, value in values.items():
-        if not (np.isfinite(value) and value > 0):
-            faults.add(name, value, "a finite value above 0")
+        check_number(faults, name, value, "> 0")
     faults.raise_if_any()
 
 

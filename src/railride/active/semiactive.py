@@ -28,6 +28,7 @@ from railride.firstorder import first_order
 from railride.frequency import wheelset_delays
 from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
+from railride.quantities import check_number
 from railride.response import first_order_hold, simulate
 from railride.rides import RATE, load_track, ridden_track
 from railride.spectra import Spectrum, check_speed
@@ -145,14 +146,12 @@ def _check_arguments(model: VehicleModel, c_max: float, c_min: float, **positive
     faults = Faults("semi-active")
     mounted = any(b.secondary_damper_stiffness is not None for b in model.vehicle.bogies)
     for name, value in (("c_max", c_max), ("c_min", c_min)):
-        if not (np.isfinite(value) and value >= 0):
-            faults.add(name, f"{value} N s/m", "a finite damping, 0 or more")
-        elif mounted and value == 0:
+        check_number(faults, name, value, ">= 0", "N s/m")
+        if mounted and value == 0:
             faults.add(name, "0 N s/m on an elastic mount", "a damping above 0")
     for name, value in positive.items():
-        if not (np.isfinite(value) and value > 0):
-            faults.add(name, value, "a finite value above 0")
-    if c_min > c_max:
+        check_number(faults, name, value, "> 0")
+    if not faults.found and c_min > c_max:
         faults.add("c_min", f"{c_min:g} N s/m", f"at most c_max, {c_max:g} N s/m")
     faults.raise_if_any()
 

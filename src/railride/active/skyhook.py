@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from railride.active.loop import Loop
 from railride.active.signals import suspension_signals
 from railride.errors import Faults, InputError
+from railride.quantities import check_number
 from railride.vehicle import VehicleModel
 
 if TYPE_CHECKING:
@@ -64,10 +65,10 @@ def skyhook(
     import control
 
     faults = Faults(name)
-    if not np.isfinite(gain):
-        faults.add("gain", f"{gain} N s/m", "a finite one")
-    _check_frequency("bandwidth", bandwidth, faults)
-    _check_frequency("high_pass", high_pass, faults)
+    check_number(faults, "gain", gain, unit="N s/m")
+    for what, corner in (("bandwidth", bandwidth), ("high_pass", high_pass)):
+        if corner is not None:
+            check_number(faults, what, corner, "> 0", "Hz")
     if order not in (1, 2):
         faults.add("order", order, "1 or 2")
     faults.raise_if_any()
@@ -75,8 +76,8 @@ def skyhook(
     measured = tuple(suspension_signals(model)[f"body_{b}_velocity"] for b in bogies)
     law = control.ss([], [], [], -float(gain))
     if high_pass is not None:
-        corner = 2 * np.pi * high_pass
-        law = control.ss([[-corner]], [[-corner]], [[1.0]], [[1.0]]) * law
+        omega = 2 * np.pi * high_pass
+        law = control.ss([[-omega]], [[-omega]], [[1.0]], [[1.0]]) * law
     if bandwidth is not None:
         law = actuator_dynamics(bandwidth, order) * law
     every = control.append(*[law] * len(bogies))
@@ -105,7 +106,7 @@ def actuator_dynamics(bandwidth: float, order: int = 2) -> control.StateSpace:
     import control
 
     faults = Faults("actuator")
-    _check_frequency("bandwidth", bandwidth, faults)
+    check_number(faults, "bandwidth", bandwidth, "> 0", "Hz")
     faults.raise_if_any()
     corner = 2 * np.pi * bandwidth
     if order == 1:
@@ -115,8 +116,3 @@ def actuator_dynamics(bandwidth: float, order: int = 2) -> control.StateSpace:
         A = corner * np.array([[0.0, 1.0], [-1.0, -np.sqrt(2)]])
         return control.ss(A, [[0.0], [corner]], [[1.0, 0.0]], [[0.0]])
     raise InputError(f"actuator: order: found {order}; expected 1 or 2")
-
-
-def _check_frequency(name: str, value: float | None, faults: Faults) -> None:
-    if value is not None and not (np.isfinite(value) and value > 0):
-        faults.add(name, f"{value} Hz", "a finite frequency above 0")

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 import sympy as sp
@@ -15,6 +16,7 @@ from railride.lagrange import Coordinate, Lagrangian
 from railride.linear import linearise
 from railride.numeric import Array, MatrixFunction, symmetric_eigenvalues
 from railride.parameters import CarBody, Load
+from railride.toml_tables import finite_number
 
 FLOORS = ("smooth", "polygon")
 
@@ -165,9 +167,10 @@ class BodyModel(ABC):
 
     def check_point(self, at: float) -> None:
         """Raise :class:`InputError` unless the point is on the body."""
-        half = self.body.length / 2
-        if not abs(at) <= half * (1 + 1e-12):
-            raise InputError(f"position {at:g} m: found a point off the body; expected one between "
+        half, number = self.body.length / 2, finite_number(at)
+        if number is None or abs(number) > half * (1 + 1e-12):
+            named = f"{at:g} m" if isinstance(at, Real) else repr(at)
+            raise InputError(f"position {named}: found a point off the body; expected one between "
                              f"{-half:g} and {half:g} m from its middle")  # fmt: skip
 
     def check_reading(self, reading: str) -> None:

@@ -87,7 +87,7 @@ def extremes(
     model: VehicleModel,
     speed: float,
     spectrum: Spectrum,
-    outputs: Sequence[Output | str] | None = None,
+    outputs: Output | str | Sequence[Output | str] | None = None,
     *,
     distance: float | None = None,
     duration: float | None = None,
@@ -134,7 +134,7 @@ def output_statistics(
     model: VehicleModel,
     speed: float,
     spectrum: Spectrum,
-    outputs: Sequence[Output | str] | None = None,
+    outputs: Output | str | Sequence[Output | str] | None = None,
     *,
     distance: float | None = None,
     duration: float | None = None,
@@ -147,7 +147,7 @@ def output_statistics(
     Parameters
     ----------
     speed : V in m/s, > 0. spectrum : of the track.
-    outputs : outputs or their names; default every suspension deflection and wheel load.
+    outputs : one or several, or their names; default every suspension deflection and wheel load.
     distance, duration : m or s over which the peak is expected, one of them; default 1000 m.
     corner : Hz, of the low-pass that wheel loads are taken after. band : from and to, Hz.
     changes : parameter values in place of the vehicle's.
