@@ -218,6 +218,30 @@ def test_figures_of_the_papers_coach():
     assert a_w["5 Hz"] > a_w["passive"]  # its lag feeds the first bending mode
 
 
+def test_the_bogies_take_the_actuators_reaction():
+    """A damper between body and sky, by a direct solution, is better than what an actuator can."""
+    model, f = paper_coach(4), np.linspace(0.05, 80.0, 40_001)
+    m, s = model.matrices(), 2j * np.pi * f
+    body = [model.floor(b.position, "polygon", 0) for b in model.vehicle.bogies]
+    over = model.output_rows(body)["d"]
+    floor = model.output_rows([model.floor(0.0, derivative=0)])["d"][0]
+    x = np.array(model.vehicle.wheelset_positions)
+    w = np.exp(-np.outer(s, (x[0] - x) / V))[..., np.newaxis]
+    gain = np.abs(weighting("Wk").response(f)) ** 2 * temporal(LOW, V)(f)
+    s = s[:, np.newaxis, np.newaxis]
+
+    def a_wrms(C):
+        q = np.linalg.solve(m.K + s * C + s**2 * m.M, (m.K_w + s * m.C_w) @ w)
+        H = s[:, 0, 0] ** 2 * (floor @ q)[:, 0]
+        return np.sqrt(np.trapezoid(np.abs(H) ** 2 * gain, f))
+
+    sky = 100e3 * over.T @ over
+    assert a_wrms(m.C + sky) == pytest.approx(0.140, abs=5e-4)
+    found = rate_loop(skyhook(model, 100e3), V, LOW).a_wrms[0]
+    assert found == pytest.approx(0.169, abs=5e-4)
+    assert found == pytest.approx(a_wrms(m.C + 100e3 * m.B_f @ over), rel=1e-3)
+
+
 def test_modulus_margin_is_the_distance_to_instability():
     """Of the gain that a slow actuator bears, by bisection, and of one loop in closed form."""
     model = paper_coach(1)
