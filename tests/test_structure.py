@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import railride
+import railride.plots
 
 SOURCE = Path(railride.__file__).parent
 
@@ -97,6 +98,11 @@ def test_public_names_resolve_and_are_documented(name):
         own = inspect.getdoc(found).splitlines()[0]
         assert own.strip()
     assert name in dir(railride)
+
+
+def test_every_picture_is_at_hand():
+    drawing = {name for name in railride.plots.__all__ if name.startswith(("plot_", "animate_"))}
+    assert drawing <= set(railride.__all__)
 
 
 def test_unknown_names_are_attribute_errors():

@@ -41,10 +41,10 @@ _WHERE = {
     "rides": ("RideResult", "ride"),
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),
-    "plots": ("plot_acceleration", "plot_bode", "plot_track", "plot_modes", "plot_ride",
-              "animate_mode", "plot_root_locus", "plot_damping", "plot_comfort",
-              "plot_comfort_along",
-              "plot_comfort_map", "plot_comfort_over_speed"),
+    "plots": ("animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
+              "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",
+              "plot_loci", "plot_loop_spectra", "plot_loops", "plot_modes", "plot_ride",
+              "plot_root_locus", "plot_track", "plot_track_overview", "plot_track_spectrum"),
     "errors": ("InputError",),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}
