@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import typer
 
 from railride.cli.bode import bode
+from railride.cli.compare import compare
 from railride.cli.derive import derive
 from railride.cli.map import comfort_map
 from railride.cli.modes import modes
@@ -23,8 +24,16 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for name, command in (("bode", bode), ("derive", derive), ("map", comfort_map), ("modes", modes),
-                      ("ride", ride), ("track", track)):  # fmt: skip
+COMMANDS: dict[str, Callable[..., None]] = {
+    "bode": bode,
+    "compare": compare,
+    "derive": derive,
+    "map": comfort_map,
+    "modes": modes,
+    "ride": ride,
+    "track": track,
+}
+for name, command in COMMANDS.items():
     app.command(name)(command)
 
 

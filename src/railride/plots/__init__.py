@@ -9,6 +9,11 @@ from railride.plots.active import plot_loop_spectra, plot_loops
 from railride.plots.animation import animate_mode
 from railride.plots.bode import plot_bode
 from railride.plots.canvas import save
+from railride.plots.comparison import (
+    plot_bending_convergence,
+    plot_comparison,
+    plot_convergence,
+)
 from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import MOST_MODES, chosen_modes, left_out, plot_modes
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
@@ -26,11 +31,14 @@ __all__ = [
     "chosen_modes",
     "left_out",
     "plot_acceleration",
+    "plot_bending_convergence",
     "plot_bode",
     "plot_comfort",
     "plot_comfort_along",
     "plot_comfort_map",
     "plot_comfort_over_speed",
+    "plot_comparison",
+    "plot_convergence",
     "plot_damping",
     "plot_loci",
     "plot_loop_spectra",

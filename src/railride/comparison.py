@@ -1,0 +1,243 @@
+"""Car bodies side by side: one vehicle over one track, with every way to make its body.
+
+Each is measured against the converged beam, one of so many modes that more would change nothing.
+
+Source: the question of Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Section 1: how
+accurate assembled rigid bodies are beside a free-free beam and finite elements, and at what cost.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from railride.errors import InputError
+from railride.modal import modes
+from railride.numeric import Array
+from railride.parameters import Vehicle, load_vehicle
+from railride.rides import PAPER_SPEEDS, RATE, exact_spectrum, load_track, ridden_track
+from railride.spectra import Spectrum
+from railride.stochastic import stochastic_ride
+from railride.timerun import time_run
+from railride.track import Track
+from railride.vehicle import VehicleModel, derive_vehicle
+from railride.weightings import weighting
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SEGMENTS = (1, 2, 3, 4, 6, 8, 16)
+MODES = (1, 2, 3, 5, 10)
+CONVERGED = 30  # modes of the beam that all are measured against
+SHOWN = 3  # bending frequencies
+RUN = 1000.0  # m, of the run that is timed
+
+
+@dataclass(frozen=True, eq=False)
+class ComparedBody:
+    """One body under the vehicle: what it has, gives and costs.
+
+    body : its kind. segments, modes : as many as it is made of, None of another kind.
+    dof : coordinates of the vehicle. free_hz (≤ 3,) : first bending frequencies of the body free in
+    space, vehicle_hz (≤ 3,) : on its suspension, |λ|/2π. a_wrms (speeds, positions) : m/s², exact.
+    error : relative to the converged beam. derive_s, simulate_s : s, to derive it and to run it
+    over a kilometre at the first speed.
+    """
+
+    body: str
+    segments: int | None
+    modes: int | None
+    dof: int
+    free_hz: Array
+    vehicle_hz: Array
+    a_wrms: Array
+    error: Array
+    derive_s: float
+    simulate_s: float
+
+    @property
+    def title(self) -> str:
+        """What it is, in a few words."""
+        if self.body == "rigid":
+            return "rigid"
+        return f"{self.segments} segments" if self.segments else f"{self.body}, {self.modes} modes"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """All bodies of a comparison, at ``speeds`` (m/s) and ``positions`` (m), and the reference."""
+
+    vehicle: str
+    track: str
+    floor: str
+    speeds: tuple[float, ...]
+    positions: tuple[float, ...]
+    bodies: tuple[ComparedBody, ...]
+    reference: ComparedBody
+    remarks: tuple[str, ...] = ()
+
+    def table(self) -> pd.DataFrame:
+        """One row per body, speed and position; the units in the column names."""
+        import pandas as pd
+
+        return pd.DataFrame(
+            [
+                {
+                    "body": one.title,
+                    "degrees of freedom": one.dof,
+                    **{f"bending {k + 1} [Hz]": _entry(one.free_hz, k) for k in range(SHOWN)},
+                    **{f"bending {k + 1} on suspension [Hz]": _entry(one.vehicle_hz, k)
+                       for k in range(SHOWN)},
+                    "speed [km/h]": round(3.6 * speed, 9),
+                    "position [m]": x,
+                    "a_wrms [m/s^2]": one.a_wrms[i, j],
+                    "error": one.error[i, j],
+                    "derive [s]": one.derive_s,
+                    "simulate [s]": one.simulate_s,
+                }
+                for one in self.bodies
+                for i, speed in enumerate(self.speeds)
+                for j, x in enumerate(self.positions)
+            ]
+        )  # fmt: skip
+
+    def _repr_html_(self) -> str:
+        return str(self.table().to_html(index=False, float_format="%.4g", na_rep=""))
+
+
+def compare_bodies(
+    vehicle: Vehicle | str | Path,
+    track: str | Path | Spectrum | Track = "erri_low",
+    speeds: Sequence[float] = PAPER_SPEEDS,
+    *,
+    at: Sequence[float] | None = None,
+    segments: Sequence[int] = SEGMENTS,
+    beams: Sequence[int] = MODES,
+    elements: Sequence[int] = (),
+    floor: str = "smooth",
+    bending_frequency: float | None = None,
+    bending_damping: float | None = None,
+    progress: Callable[[float], Any] | None = None,
+) -> Comparison:
+    """Compare car bodies of one vehicle: frequencies, exact comfort values, cost.
+
+    Parameters
+    ----------
+    vehicle : the parameters, or the name of a shipped vehicle or a file.
+    track : a spectrum or its name, or a measured track or its file (its Welch spectrum).
+    speeds : m/s, each > 0. at : points of the floor, m forward of the middle; default the middle,
+        over every bogie, and both ends.
+    segments : numbers of rigid segments, 1 for the rigid body. beams, elements : numbers of modes
+        of beams and of finite-element bodies.
+    floor : "smooth" or "polygon". bending_frequency : Hz, bending_damping : a ratio, in place of
+        the vehicle's. progress : called with the fraction done.
+
+    Raises
+    ------
+    InputError : as :func:`derive_vehicle` and :func:`stochastic_ride`; no body at all; finite
+        elements without the library that they need.
+
+    Examples
+    --------
+    >>> found = compare_bodies("cati2024", at=[0.0], segments=[4, 8], beams=[10])
+    >>> [one.title for one in found.bodies]
+    ['4 segments', '8 segments', 'beam, 10 modes']
+    >>> bool((abs(found.bodies[0].error) < 0.01).all())
+    True
+    """
+    vehicle = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
+    makes: list[dict[str, Any]] = [
+        *({"segments": n} for n in segments),
+        *({"body": "beam", "modes": n} for n in beams),
+        *({"body": "fe", "modes": n} for n in elements),
+    ]
+    if not makes or not speeds:
+        raise InputError("compare: found no bodies or no speeds; expected at least one of each")
+    places = tuple(_usual_places(vehicle) if at is None else map(float, at))
+    source = load_track(track)
+    spectrum, said = exact_spectrum(source)
+    if spectrum is None:  # not with what is needed
+        raise InputError("compare: found no spectrum of the track; expected one")
+    road = ridden_track(source, speeds, RUN, 1)
+    given: dict[str, Any] = {
+        "bending_frequency": bending_frequency,
+        "bending_damping": bending_damping,
+    }
+    remarks: list[str] = list(said)
+    found: list[ComparedBody] = []
+    for number, make in enumerate([{"body": "beam", "modes": CONVERGED}, *makes]):
+        started = perf_counter()
+        model = derive_vehicle(vehicle, **make, **given)
+        model.matrices()
+        derived = perf_counter() - started
+        values = [stochastic_ride(model, v, spectrum, places, floor=floor) for v in speeds]
+        a_wrms = np.array([value.a_wrms for value in values])
+        reference = found[0].a_wrms if found else a_wrms
+        found.append(_compared(model, a_wrms, a_wrms / reference - 1, derived,
+                               _run_time(model, road, speeds[0], places, floor)))  # fmt: skip
+        remarks += [*model.vehicle.remarks, *model.remarks, *(r for v in values for r in v.remarks)]
+        if progress is not None:
+            progress((number + 1) / (len(makes) + 1))
+    return Comparison(vehicle.name, source.name, floor, tuple(speeds), places, tuple(found[1:]),
+                      found[0], tuple(_once(remarks)))  # fmt: skip
+
+
+def _once(remarks: Sequence[str]) -> list[str]:
+    """Remarks that say the same of other numbers of segments, said of the first alone."""
+    said = {re.sub(r"\b\d+ ", "", remark): remark for remark in reversed(remarks)}
+    return list(said.values())[::-1]
+
+
+def available_elements(counts: Sequence[int]) -> tuple[int, ...]:
+    """Numbers of modes of finite-element bodies to compare: none where their library is missing.
+
+    counts : those that are wanted.
+    """
+    from importlib.util import find_spec
+
+    return tuple(counts) if find_spec("skfem") else ()
+
+
+def _usual_places(vehicle: Vehicle) -> list[float]:
+    """The middle, over every bogie, and both ends."""
+    half = vehicle.body.length / 2
+    return [0.0, *(bogie.position for bogie in vehicle.bogies), half, -half]
+
+
+def _compared(
+    model: VehicleModel, a_wrms: Array, error: Array, derived: float, simulated: float
+) -> ComparedBody:
+    named = {mode.label: mode.frequency_hz for mode in modes(model)}
+    bending = [named[f"bending {k}"] for k in range(1, SHOWN + 1) if f"bending {k}" in named]
+    return ComparedBody(
+        model.body.kind,
+        model.body.segments,
+        model.body.mode_count,
+        len(model.lagrangian.coordinates),
+        model.bending_frequencies()[:SHOWN],
+        np.array(bending),
+        a_wrms,
+        error,
+        derived,
+        simulated,
+    )
+
+
+def _run_time(
+    model: VehicleModel, road: Track, speed: float, places: Sequence[float], floor: str
+) -> float:
+    """Seconds that one run over a kilometre takes, all points of the floor at once."""
+    started = perf_counter()
+    time_run(model, speed, road, places, length=min(RUN, road.length), floor=floor,
+             weight=weighting("Wk"), rate=RATE)  # fmt: skip
+    return perf_counter() - started
+
+
+def _entry(values: Array, k: int) -> float | None:
+    return float(values[k]) if k < len(values) else None
