@@ -22,7 +22,8 @@ record_tables body_tables parameters
 lagrange jets linear halfbody numeric
 plausibility bodies running_gear parameter_values vehicle
 firstorder naming modal loci statespace spectra frequency bodes
-track trackfile response weightings scales comfort stochastic timerun rides active comparison
+track trackfile response weightings scales comfort records stochastic timerun rides active
+comparison
 markup text report halfbody_report plots cli derive __main__
 """.split()
 

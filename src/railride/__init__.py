@@ -38,6 +38,7 @@ _WHERE = {
                    "output_statistics", "third_octaves"),
     "weightings": ("Weighting", "weighting", "weighting_names", "apply_weighting"),
     "comfort": ("AccelerationRecord", "Axis", "RecordRating", "indices", "rate_record"),
+    "records": ("read_record",),
     "rides": ("RideResult", "ride"),
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),

@@ -76,6 +76,10 @@ class RowFaults:
             where = f"row {row}, column {column!r}" if column else f"row {row}"
             self.faults.add(where, found, expected, mend)
 
+    def leave_out(self, count: int) -> None:
+        """Count further faults that will not be shown."""
+        self.count += max(count, 0)
+
     def close(self) -> None:
         """Say how many were left out."""
         if self.count > self.shown:

@@ -48,8 +48,8 @@ def read_text(path: Path) -> NumberTable:
     """
     faults = Faults(str(path))
     data, remarks = read_utf8(path)
-    data = data if data.endswith(b"\n") else data + b"\n"
-    lines = _Lines.of(data)
+    ended = data.endswith(b"\n")
+    lines = _Lines.of(data if ended else data + b"\n")
     dialect = _dialect(lines, faults)
     body = _body(lines, dialect)
     bad = RowFaults(faults)
@@ -58,6 +58,9 @@ def read_text(path: Path) -> NumberTable:
     columns = _read_numbers(body, bad)
     bad.close()
     faults.raise_if_any()
+    if not ended and _looks_cut(body):
+        row = int(body.lines.row[-1])
+        remarks.append(f"the file ends within row {row}, whose last number seems to be cut off")
     if dialect.header_row == 0:
         remarks.append(f"there is no header: the columns are named 1 to {width}")
     return NumberTable(
@@ -189,9 +192,10 @@ def _whole_rows(body: _Body, bad: RowFaults) -> _Body:
         right = (counts >= width) & (counts <= width + _EXTRA)
         if width == 1:
             right |= counts == 0
-        for i in np.flatnonzero(~right)[: RowFaults.shown + 1].tolist():
+        wrong = np.flatnonzero(~right)
+        for i in wrong[: bad.shown].tolist():
             _report_width(lines, i, int(counts[i]), body.dialect, bad)
-        bad.count += max(int(np.sum(~right)) - RowFaults.shown - 1, 0)
+        bad.leave_out(wrong.size - bad.shown)
         kept.append(right)
     return _Body(body.lines[np.concatenate(kept)], body.dialect)
 
@@ -226,6 +230,17 @@ def _count_cells(lines: _Lines, separator: str) -> NDArray[np.int64]:
         except csv.Error:
             counts[i] = -1
     return counts
+
+
+def _looks_cut(body: _Body) -> bool:
+    """Whether the last cell is shorter, or has fewer decimals, than those above it."""
+    mark = "," if body.dialect.comma else "."
+    lines = body.lines[-1000:]
+    texts = (lines.text(i) for i in range(lines.row.size))
+    *above, last = [split_cells(text, body.dialect.separator)[-1:] or [""] for text in texts]
+    least = min((len(cell) for [cell] in above), default=0)
+    decimals = min((len(cell.partition(mark)[2]) for [cell] in above), default=0)
+    return len(last[0]) < least or len(last[0].partition(mark)[2]) < decimals
 
 
 def _read_numbers(body: _Body, bad: RowFaults) -> list[Numbers]:
