@@ -537,6 +537,17 @@ def test_dead_and_stuck_channels_are_told(read):
     )
 
 
+def test_a_glitch_is_told_and_a_shock_is_not(read):
+    values = f(T)
+    values[[100, 400]] = -99.0, 99.0
+    record = read(csv("time,z [m/s²]", T, values))
+    assert said(
+        record, r"2 single samples far from all others, the first in row 102 \(t = 1 s\), -99 m"
+    )
+    shock = f(T) + 60 * np.exp(-(((T - 3.0) / 0.02) ** 2))
+    assert read(csv("time,z [m/s²]", T, shock)).remarks == ()
+
+
 def test_a_last_number_that_is_cut_off_is_told(read):
     whole = "time,z\n" + "".join(f"{t:.2f},{v:.5f}\n" for t, v in zip(T, f(T), strict=True))
     assert not said(read(whole), "cut off")

@@ -17,6 +17,7 @@ _STUCK = (20, 0.2)  # equal samples in a row, and seconds, elsewhere
 # A peak's flat top of L equal samples in steps of q hides a height h ≤ q; a parabola through its
 # ends falls by 8 h within L more samples on either side.
 _HIDDEN = 1.5
+_GLITCH = 20  # times the 99th percentile, in one sample whose neighbours have not a tenth of it
 
 
 def sensor_remarks(
@@ -62,7 +63,24 @@ def sensor_remarks(
             f"{name} does not move, first at {value:.6g} m/s², at "
             f"{_places(table, first, lengths, seconds, places)}: a dropout?"
         )
+    spikes = _glitches(values, there)
+    if spikes.size:
+        i = int(spikes[0])
+        remarks.append(
+            f"{name} has {spikes.size} single samples far from all others, the first in row "
+            f"{table.row(i)} (t = {seconds[i]:.6g} s), {factor * values[i]:.4g} m/s²: glitches?"
+        )
     return remarks
+
+
+def _glitches(values: FloatArray, there: FloatArray) -> NDArray[np.int64]:
+    """Places of samples that no neighbour leads up to."""
+    middle = float(np.median(there))
+    away = np.abs(values - middle)
+    far = np.flatnonzero(away > _GLITCH * float(np.percentile(np.abs(there - middle), 99)))
+    beside = np.pad(np.nan_to_num(away), 1)
+    lonely = np.maximum(beside[far], beside[far + 2]) < 0.1 * away[far]
+    return np.asarray(far[lonely & (beside[far + 1] > 0.0)])
 
 
 def _runs(values: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
