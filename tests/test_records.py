@@ -137,6 +137,12 @@ def test_axes_by_name_in_the_order_given(read):
     assert said(one, "'b1' tells no direction and is taken as z")
 
 
+def test_an_axis_without_a_number_is_told(read):
+    record = read(csv("time,x,z [g]", T, [""] * N, f(T)))
+    assert [a.direction for a in record.axes] == ["z"]
+    assert record.remarks == ("'x': no number in the column, it was not used",)
+
+
 def test_the_only_column_beside_the_time_is_taken_as_z(read):
     record = read(csv("t,floor"))
     assert record.axes[0].direction == "z"

@@ -61,6 +61,10 @@ DIALECTS = {
     "semicolon": (GOOD.replace(",", ";"), 2),
     "decimal comma": (decimal_comma(";"), 2),
     "tab, decimal comma": (decimal_comma("\t"), 2),
+    "quoted decimal comma": (
+        't,x,z\n0,"0,1",-5\n1,"0,2",3\n2,"0,3",4\n',
+        2,
+    ),
     "blanks, decimal comma": (decimal_comma("  "), 2),
     "fixed width": ("   t    x   z\n   0  0.1  -5\n   1  0.2   3\n   2  0.3   4\n", 2),
     "padded": ("t , x , z \n" + BODY.replace(",", " , "), 2),

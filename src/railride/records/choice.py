@@ -95,6 +95,7 @@ def _may_be_time(column: Column) -> bool:
 def _found(columns: list[Column], faults: Faults, remarks: list[str]) -> list[Column]:
     """Columns that tell a direction, each direction once; or else the only one of numbers."""
     numbers = [c for c in columns if c.numbers.dtype.kind == "i" or not np.all(np.isnan(c.numbers))]
+    empty = [c.heading for c in columns if c not in numbers and direction(c) is not None]
     likely = [c for c in numbers if not _OTHERS.search(c.heading.lower()) and is_acceleration(c)]
     directed = [c for c in likely if direction(c) is not None]
     found = directed or (numbers if len(numbers) == 1 else likely if len(likely) == 1 else [])
@@ -117,6 +118,8 @@ def _found(columns: list[Column], faults: Faults, remarks: list[str]) -> list[Co
             "name the columns",
         )
     faults.raise_if_any()
+    if empty:
+        remarks.append(f"{', '.join(map(repr, empty))}: no number in the column, it was not used")
     others = [c.heading for c in numbers if c not in found and not _is_called_time(c)]
     if others:
         listed = ", ".join(map(repr, others[:5])) + (", …" if len(others) > 5 else "")

@@ -83,7 +83,7 @@ def find_dialect(head: Sequence[Line], spread: Sequence[Line], comments: Sequenc
     texts = [text for _, text in (*head, *spread)]
     separator = max(_SEPARATORS, key=lambda s: _score(texts, s))
     rows = [_cells_or_none(text, separator) for text in texts]
-    comma = separator != "," and _decimal_comma([cells for cells in rows if cells])
+    comma = _decimal_comma([cells for cells in rows if cells])
     width = Counter(len(cells) for cells in rows if cells).most_common(1)[0][0]
     whole = [cells for cells in rows if cells and len(cells) == width]
     number = DECIMAL_COMMA if comma else DECIMAL_POINT
@@ -237,13 +237,13 @@ def _score(lines: Sequence[str], separator: str) -> int:
     score = 0
     for line in lines:
         for cell in _cells_or_none(line, separator) or [line]:
-            numeric = _is(DECIMAL_POINT, cell) or (separator != "," and _is(DECIMAL_COMMA, cell))
+            numeric = _is(DECIMAL_POINT, cell) or _is(DECIMAL_COMMA, cell)
             score += 1 if numeric else -(not is_missing(cell))
     return score
 
 
 def _decimal_comma(rows: Sequence[list[str]]) -> bool:
-    """Whether most numbers with a mark have a comma."""
+    """Whether most numbers with a mark have a comma; in quotes, where commas separate."""
     numbers = [
         cell
         for cells in rows
