@@ -15,7 +15,7 @@ from vehicles import paper_coach, random_model
 
 from railride.bodes import bode, geometric_zeros
 from railride.errors import InputError
-from railride.frequency import track_response
+from railride.frequency import frequency_response, track_response
 from railride.plots import plot_bode, save
 from railride.vehicle import derive_vehicle
 
@@ -50,7 +50,7 @@ def test_phases_lie_above_minus_180_and_reach_180():
 def test_a_slow_wave_lifts_the_car_and_accelerates_it_half_a_turn_ahead():
     """z follows w with the way from the leading wheelset (10 m ahead), and z̈ = -ω² z."""
     f = [1e-3]
-    (height,) = bode(paper_coach(4), [V], f, derivative=0)
+    (height,) = bode(paper_coach(4), [V], f, outputs="floor_displacement")
     (acceleration,) = bode(paper_coach(4), [V], f)
     assert_allclose(height.magnitude, 1.0, rtol=1e-4)
     assert_allclose(height.phase_deg, -360 * 1e-3 * 10 / V, rtol=1e-3)
@@ -88,11 +88,39 @@ def test_a_table_with_units():
         ([V], {"frequency": [2.0, 1.0]}, "ascending"),
         ([V], {"frequency": [0.0, 1.0]}, "above zero"),
         ([V], {"floor": "carpet"}, "smooth"),
+        (None, {}, "speed: found none"),
+        (
+            [V],
+            {"outputs": "bogie_3_acceleration"},
+            "found 'bogie_3_acceleration'; expected one of floor_acceleration, floor_velocity, .*",
+        ),
+        ([V], {"source": ["track", "w_9"]}, "found 'w_9'; expected one of track, w_1, .*, f_2"),
+        ([V], {"source": []}, "source: found none"),
+        ([V], {"outputs": ()}, "outputs: found none"),
     ],
 )
 def test_bad_input_is_refused(speeds, more, message):
     with pytest.raises(InputError, match=message):
         bode(paper_coach(2), speeds, **more)
+
+
+def test_sources_outer_then_speeds_outputs_and_points():
+    model, f = paper_coach(2), [1.0, 9.6]
+    found = bode(model, [40.0, V], f, at=[0.0, 4.0], source=["track", "w_3", "f_1"],
+                 outputs=["floor_velocity", "bogie_2_acceleration"])  # fmt: skip
+    moved = [(s, v) for s, v in (("track", 40.0), ("track", V), ("w_3", None), ("f_1", None))]
+    felt = [("floor_velocity", 0.0), ("floor_velocity", 4.0), ("bogie_2_acceleration", None)]
+    assert [(r.source, r.speed, r.signal, r.position) for r in found] == [
+        (*m, *o) for m in moved for o in felt
+    ]
+    for r in found:
+        output = r.signal if r.position is None else model.floor(r.position, derivative=1)
+        H = frequency_response(model, output, f, speed=r.speed, source=r.source)
+        assert_allclose(r.H, H.frdata[0, 0], rtol=1e-12)
+        assert r.unit == ("(m/s)" if r.position is not None else "(m/s^2)") + (
+            "/N" if r.source == "f_1" else "/m"
+        )
+        assert r.source == "track" or not r.zeros
 
 
 # geometric zeros
@@ -153,7 +181,9 @@ def test_lines_are_what_was_computed_and_told_apart():
         "144 km/h", "200 km/h", "zeros (k + ½)·V/17.5 m, bogie spacing",
         "zeros (k + ½)·V/2.5 m, wheelbase",
     ]  # fmt: skip
-    assert figure.get_suptitle() == "cati2024, 4 segments, smooth floor, x = 0 m"
+    assert figure.get_suptitle() == (
+        "cati2024, 4 segments, acceleration of the smooth floor, from the track, x = 0 m"
+    )
     assert above.get_ylabel() == "magnitude [(m/s²)/m]"
     assert (below.get_xlabel(), below.get_ylabel()) == ("frequency [Hz]", "phase [°]")
     assert (above.get_xscale(), above.get_yscale()) == ("log", "log")
@@ -182,7 +212,10 @@ def test_several_bodies_in_one_picture(tmp_path):
     save(figure, tmp_path / "bode.png")  # laid out, without a warning
     assert figure.axes[1].get_position().height > 0.4
     save(plot_bode(bode(paper_coach(1), [V], [1.0])), tmp_path / "one.png")
-    save(plot_bode(bode(paper_coach(1), [V], [1.0, 3.0], derivative=0)), tmp_path / "two.png")
+    save(
+        plot_bode(bode(paper_coach(1), [V], [1.0, 3.0], outputs="floor_displacement")),
+        tmp_path / "two.png",
+    )
 
 
 def test_modes_of_every_body_are_named():
@@ -223,9 +256,18 @@ def test_zeros_that_all_have_are_grey_and_others_of_their_lines_colour():
 def test_pictures_of_nothing_or_of_two_units_are_refused():
     with pytest.raises(InputError, match="found none"):
         plot_bode([])
-    pair = [*bode(paper_coach(1), [V], [1.0]), *bode(paper_coach(1), [V], [1.0], derivative=0)]
-    with pytest.raises(InputError, match=r"m and m/s\^2"):
+    pair = bode(paper_coach(1), [V], [1.0], outputs=["floor_acceleration", "floor_displacement"])
+    with pytest.raises(InputError, match=r"\(m/s\^2\)/m and m/m"):
         plot_bode(pair)
+
+
+def test_a_legend_of_long_names_stays_inside(tmp_path):
+    found = bode(paper_coach(2), V, source=["track", "w_1", "w_2"],
+                 outputs=["bogie_1_acceleration", "floor_acceleration"])  # fmt: skip
+    figure = plot_bode(found)
+    save(figure, tmp_path / "long.png")
+    box = figure.legends[0].get_window_extent()
+    assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
 
 
 # the command
@@ -294,9 +336,76 @@ def test_a_picture_on_request(run, tmp_path):
     assert target.read_text(encoding="utf-8").startswith("<?xml")
 
 
+def response(run, *options):
+    code, out, err = run(*options, "--format", "json")
+    assert code == 0, err
+    return json.loads(out, parse_constant=pytest.fail)["response"], err
+
+
+def test_bodies_side_by_side(run, tmp_path):
+    target = tmp_path / "bode.svg"
+    rows, _ = response(run, "--compare-segments", "1,2, 8", "--frequencies", "1,9.6", "--plot",
+                       target)  # fmt: skip
+    assert [(r["segments"], r["frequency_hz"]) for r in rows] == [
+        (n, f) for n in (1, 2, 8) for f in (1.0, 9.6)
+    ]
+    assert list(rows[0])[-1] == "segments"
+    for r in rows:
+        model = paper_coach(r["segments"])
+        H = track_response(model, [model.floor()], V, [r["frequency_hz"]])[0, 0]
+        assert_allclose(r["magnitude"], abs(H), rtol=1e-9)
+    out = run("--compare-segments", "1,2", "--frequencies", "1,9.6")[1]
+    lines = [line.split() for line in out.splitlines() if "200" in line]
+    assert [line[:2] for line in lines[:4]] == [
+        ["rigid", "body"], ["rigid", "body"], ["2", "segments"], ["2", "segments"],
+    ]  # fmt: skip
+    assert "floor acceleration per track elevation" in out
+    assert target.exists()
+
+
+def test_other_sources_and_signals(run):
+    rows, err = response(run, "--source", "f_2", "--source", "w_3", "--signal",
+                         "secondary_1_deflection", "--signal", "floor_velocity", "--at", 3,
+                         "--frequencies", "1,9.6", "--segments", 2)  # fmt: skip
+    model = paper_coach(2)
+    assert [(r["source"], r["output"], r["unit"]) for r in rows[::2]] == [
+        ("f_2", "secondary_1_deflection", "m/N"), ("f_2", "floor_velocity", "(m/s)/N"),
+        ("w_3", "secondary_1_deflection", "m/m"), ("w_3", "floor_velocity", "(m/s)/m"),
+    ]  # fmt: skip
+    for r in rows:
+        assert r["speed_kmh"] is None
+        on_floor = r["output"] == "floor_velocity"
+        assert r["position_m"] == (3.0 if on_floor else None)
+        output = model.floor(3.0, derivative=1) if on_floor else r["output"]
+        H = frequency_response(model, output, [r["frequency_hz"]], source=r["source"]).frdata
+        found = r["magnitude"] * np.exp(1j * np.radians(r["phase_deg"]))
+        assert_allclose(found, H[0, 0, 0], rtol=1e-9)
+    assert "changes nothing" not in err
+    _, err = response(run, "--source", "f_2", "--signal", "bogie_1_acceleration", "--at", 3,
+                      "--speed", 100, "--frequencies", "1")  # fmt: skip
+    assert "remark: --speed changes nothing" in err
+    assert "remark: --at changes nothing" in err
+
+
+def test_a_table_of_several_sources_tells_them_apart(run):
+    out = run("--source", "track", "--source", "f_1", "--frequencies", "1,2", "--segments", 1)[1]
+    assert out.startswith("cati2024 (rigid body), smooth floor: floor acceleration\n")
+    assert out.count("track elevation under the leading wheelset") == 2
+    assert out.count("force of actuator 1") == 2
+    assert "[SI]" in out
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
+        (["--source", "w_5"], "found 'w_5'; expected one of track, w_1, w_2, w_3, w_4, f_1, f_2"),
+        (["--source", "track", "--source", "f_1", "--plot", "a.png"], "(m/s^2)/N and (m/s^2)/m"),
+        (["--signal", "door"], "found 'door'; expected one of floor_acceleration, floor_velocity"),
+        (["--compare-segments", "1,2", "--segments", "3"], "found --segments with it"),
+        (["--compare-segments", "1,2", "--body", "rigid"], "found --body with it"),
+        (["--compare-segments", "1,0"], "--compare-segments: found '0'"),
+        (["--compare-segments", "2,2"], "each number once"),
+        (["--compare-segments", ""], "--compare-segments: found ''"),
         (["--frequencies", "1,0"], "--frequencies: found '0'"),
         (["--frequencies", "-1"], "--frequencies: found '-1'"),
         (["--frequencies", "2,1"], "--frequencies: found 1 Hz after 2 Hz"),

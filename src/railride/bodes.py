@@ -1,4 +1,4 @@
-r"""Bode studies: the floor's response to the track over speeds and positions, and its zeros.
+r"""Bode studies: responses to the track over speeds and positions, and their zeros.
 
 Two places along the track that a vehicle feels alike and adds up, a distance d apart, cancel at
 
@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from railride.errors import InputError
 from railride.frequency import (
     BAND_HZ,
+    FLOOR,
     POINTS,
     TRACK,
     Complex,
@@ -39,6 +40,7 @@ from railride.vehicle import Output, VehicleModel
 if TYPE_CHECKING:
     import pandas as pd
 
+ON_FLOOR = ("floor_displacement", "floor_velocity", FLOOR)  # by the order of the derivative
 _CANCELS = 1e-6  # of the sum of what each wheelset does alone: rounding, and no dip, is below it
 _MOST_ZEROS = 1000  # of one distance
 
@@ -54,19 +56,23 @@ class GeometricZeros:
 
 @dataclass(frozen=True, eq=False)
 class BodeResponse:
-    """H from the elevation under the leading wheelset to an output, at one speed.
+    """H from a source to an output, at one speed.
 
-    body : the car body in a few words. speed : m/s. position : m forward of the body's middle.
-    output : what responds, with its unit. frequency : Hz, (F,). H : complex, (F,), the output's
-    unit per m. modes : of the vehicle. zeros : the geometric filtering, up to the highest
+    body : the car body in a few words. source : "track" (the elevation under the leading wheelset),
+    "w_1" … or "f_1" …. signal : what was asked for, "floor_acceleration" or another output's name.
+    speed : m/s, None where the source is not the track. position : m forward of the body's middle,
+    None off the floor. output : what responds, with its unit. frequency : Hz, (F,). H : complex,
+    (F,), in ``unit``. modes : of the vehicle. zeros : the geometric filtering, up to the highest
     frequency.
     """
 
     vehicle: str
     body: str
     floor: str
-    speed: float
-    position: float
+    source: str
+    signal: str
+    speed: float | None
+    position: float | None
     output: Output
     frequency: Array
     H: Complex
@@ -74,8 +80,14 @@ class BodeResponse:
     zeros: tuple[GeometricZeros, ...]
 
     @property
+    def unit(self) -> str:
+        """Of H: the output's unit per metre, or per newton of an actuator."""
+        unit = self.output.unit
+        return f"{f'({unit})' if '/' in unit else unit}/{'N' if self.source[0] == 'f' else 'm'}"
+
+    @property
     def magnitude(self) -> Array:
-        """|H|, (F,), the output's unit per m."""
+        """|H|, (F,)."""
         return np.abs(self.H)
 
     @property
@@ -90,35 +102,39 @@ class BodeResponse:
 
         return pd.DataFrame({
             "frequency [Hz]": self.frequency,
-            f"magnitude [({self.output.unit})/m]": self.magnitude,
+            f"magnitude [{self.unit}]": self.magnitude,
             "phase [deg]": self.phase_deg,
         })  # fmt: skip
 
 
 def bode(
     model: VehicleModel,
-    speeds: float | Sequence[float],
+    speeds: float | Sequence[float] | None = None,
     frequency: ArrayLike | None = None,
     *,
     at: float | Sequence[float] = (0.0,),
     floor: str = "smooth",
-    derivative: int = 2,
+    outputs: str | Sequence[str] = FLOOR,
+    source: str | Sequence[str] = TRACK,
     **changes: ArrayLike,
 ) -> tuple[BodeResponse, ...]:
-    """Responses of points of the floor to the track, speeds outer and positions inner.
+    """Responses of a vehicle: sources outer, then speeds, outputs, and points of the floor inner.
 
     Parameters
     ----------
-    speeds : m/s, one or several, each > 0.
+    speeds : m/s, one or several, each > 0; needed for the track, without effect on other sources.
     frequency : Hz, ascending, > 0; default 2,000 from 0.2 to 40 Hz.
     at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
-    derivative : of the floor's height: 2 is its acceleration, 0 its displacement.
+    outputs : names of ``model.outputs``, and "floor_acceleration", "floor_velocity" and
+        "floor_displacement", which are taken at every point of ``at``.
+    source : "track", the elevation under the leading wheelset, all wheelsets with exact delays;
+        "w_1" …, the elevation under one wheelset; "f_1" …, an actuator; or several of them.
     changes : parameter values in place of the vehicle's.
 
     Raises
     ------
     InputError : a speed of 0, frequencies that are none or not ascending, a point off the body, an
-        unstable vehicle.
+        output or a source that does not exist, an unstable vehicle.
 
     Examples
     --------
@@ -127,24 +143,70 @@ def bode(
     >>> (found,) = bode(coach, [200 / 3.6], [1.0, 2.0, 5.0])
     >>> [(z.cause, z.distance, z.frequency.round(3).tolist()) for z in found.zeros]
     [('bogie spacing', 17.5, [1.587, 4.762])]
+    >>> bode(coach, source="f_1", outputs="secondary_2_deflection")[0].unit
+    'm/N'
     """
-    speeds, points = several(speeds, "speeds", "m/s"), several(at, "at", "m")
-    if not speeds or not points:
-        raise InputError(f"{'speeds' if not speeds else 'at'}: found none; expected at least one")
-    for speed in speeds:
-        check_speed(speed)
+    signals, sources = _listed(outputs, "outputs"), _listed(source, "source")
+    points = several(at, "at", "m")
     f = check_ascending(np.geomspace(*BAND_HZ, POINTS) if frequency is None else frequency)
-    outputs = [model.floor(x, floor, derivative) for x in points]
+    asked = _asked(model, signals, points, floor)
+    every = [output for _, _, output in asked]
+    moving = [(one, speed) for one in sources for speed in _speeds(one, speeds)]
     found_modes = modes(model, **changes)
-    H = [responses(model, outputs, [TRACK], f, speed=v, **changes)[:, 0] for v in speeds]
-    return tuple(
-        BodeResponse(
-            model.vehicle.name, model.body.title, floor, v, x, output, f, H[i][k], found_modes,
-            geometric_zeros(model, output, v, float(f[-1]), **changes),
-        )
-        for i, v in enumerate(speeds)
-        for k, (x, output) in enumerate(zip(points, outputs, strict=True))
-    )  # fmt: skip
+    found = []
+    for one, speed in moving:
+        H = responses(model, every, [one], f, speed=speed, **changes)[:, 0]
+        for (signal, x, output), response in zip(asked, H, strict=True):
+            zeros = () if speed is None else geometric_zeros(model, output, speed, float(f[-1]),
+                                                             **changes)  # fmt: skip
+            found.append(
+                BodeResponse(
+                    vehicle=model.vehicle.name, body=model.body.title, floor=floor, source=one,
+                    signal=signal, speed=speed, position=x, output=output, frequency=f,
+                    H=response, modes=found_modes, zeros=zeros,
+                )
+            )  # fmt: skip
+    return tuple(found)
+
+
+def _listed(names: str | Sequence[str], where: str) -> list[str]:
+    """One name or several as a list of at least one."""
+    listed = [names] if isinstance(names, str) else list(names)
+    if not listed:
+        raise InputError(f"{where}: found none; expected at least one name")
+    return listed
+
+
+def _speeds(source: str, speeds: float | Sequence[float] | None) -> Sequence[float | None]:
+    """The speeds at which a source is felt: only the track moves on."""
+    if source != TRACK or speeds is None:
+        return [None]  # of the track, that is refused where its delays are taken
+    listed = several(speeds, "speeds", "m/s")
+    if not listed:
+        raise InputError("speeds: found none; expected at least one")
+    for speed in listed:
+        check_speed(speed)
+    return listed
+
+
+def _asked(
+    model: VehicleModel, signals: Sequence[str], points: Sequence[float], floor: str
+) -> list[tuple[str, float | None, Output]]:
+    """Name, point of the floor and output of all that is asked for; other names are refused."""
+    known = model.outputs
+    asked: list[tuple[str, float | None, Output]] = []
+    for signal in signals:
+        if signal in ON_FLOOR:
+            if not points:
+                raise InputError("at: found none; expected at least one")
+            order = ON_FLOOR.index(signal)
+            asked += [(signal, x, model.floor(x, floor, order)) for x in points]
+        elif signal in known:
+            asked.append((signal, None, known[signal]))
+        else:
+            raise InputError(f"output: found {signal!r}; expected one of "
+                             f"{', '.join([*reversed(ON_FLOOR), *known])}")  # fmt: skip
+    return asked
 
 
 def geometric_zeros(

@@ -1,16 +1,17 @@
-"""``railride bode``: the frequency response from the track to the floor."""
+"""``railride bode``: frequency responses from the track, a wheelset or an actuator."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from railride.cli import options, output
-from railride.cli.options import FORMATS, Arguments, kmh
+from railride.cli import options, output, responses
+from railride.cli.options import FORMATS, Arguments
 from railride.cli.progress import working
-from railride.cli.vehicle import VehicleChoice, takes_vehicle
+from railride.cli.vehicle import MOST_SEGMENTS, VehicleChoice, takes_vehicle
 
 if TYPE_CHECKING:
     from railride.bodes import BodeResponse
@@ -18,69 +19,63 @@ if TYPE_CHECKING:
 RESPONSE = "The response"
 BAND = {"--from": "0.2", "--to": "40", "--points": "2000"}
 MOST_POINTS = 1_000_000
-LISTED = 40  # frequencies: more are summed up in the table by their peaks and dips
-PROMINENT = 1.5  # how far a peak stands out from what surrounds it, as a ratio
+TRACK, FLOOR = "track", "floor_acceleration"
+
+SpeedOption = Annotated[
+    list[str] | None, typer.Option("--speed", metavar="KMH", rich_help_panel=RESPONSE,
+                                   help="Speed in km/h; may be repeated. Default 200.")
+]  # fmt: skip
+AtOption = Annotated[
+    list[str] | None, typer.Option("--at", metavar="X", rich_help_panel=RESPONSE,
+                                   help="Point of the floor, m forward of the middle; may be "
+                                   "repeated.")]  # fmt: skip
+SourceOption = Annotated[
+    list[str] | None, typer.Option("--source", metavar="NAME", rich_help_panel=RESPONSE,
+                                   help="What moves: track (default; all wheelsets, with exact "
+                                   "delays), one wheelset w_1 …, or an actuator f_1 …; may be "
+                                   "repeated.")]  # fmt: skip
+SignalOption = Annotated[
+    list[str] | None, typer.Option("--signal", metavar="NAME", rich_help_panel=RESPONSE,
+                                   help="What responds: floor_acceleration (default), "
+                                   "secondary_1_deflection or another output, which a wrong name "
+                                   "lists; may be repeated.")]  # fmt: skip
+CompareOption = Annotated[
+    str | None, typer.Option("--compare-segments", metavar='"N,N,…"', rich_help_panel=RESPONSE,
+                             help="Several numbers of segments, side by side.")]  # fmt: skip
+FrequenciesOption = Annotated[
+    str | None, typer.Option("--frequencies", metavar='"HZ,HZ,…"', rich_help_panel=RESPONSE,
+                             help="Frequencies in Hz, ascending, with commas between them.")
+]  # fmt: skip
+FromOption = Annotated[
+    str | None, typer.Option("--from", metavar="HZ", rich_help_panel=RESPONSE,
+                             help="Or the lowest frequency; default 0.2.")]  # fmt: skip
+ToOption = Annotated[
+    str | None, typer.Option("--to", metavar="HZ", rich_help_panel=RESPONSE,
+                             help="The highest; default 40.")]  # fmt: skip
+PointsOption = Annotated[
+    str | None, typer.Option("--points", metavar="N", rich_help_panel=RESPONSE,
+                             help="How many in between, evenly over the logarithm; default "
+                             "2000.")]  # fmt: skip
+PlotOption = Annotated[
+    str | None, typer.Option("--plot", metavar="FILE", rich_help_panel=options.RESULT,
+                             help="Draw magnitude and phase into this PNG, PDF or SVG file.")
+]  # fmt: skip
 
 
 @output.exits_cleanly
 @takes_vehicle
 def bode(
     choice: VehicleChoice,
-    speed: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="KMH",
-            rich_help_panel=RESPONSE,
-            help="Speed in km/h; may be repeated. Default 200.",
-        ),
-    ] = None,
-    at: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="X",
-            rich_help_panel=RESPONSE,
-            help="Point of the floor, m forward of the middle; may be repeated.",
-        ),
-    ] = None,
-    frequencies: Annotated[
-        str | None,
-        typer.Option(
-            metavar='"HZ,HZ,…"',
-            rich_help_panel=RESPONSE,
-            help="Frequencies in Hz, ascending, with commas between them.",
-        ),
-    ] = None,
-    lowest: Annotated[
-        str | None,
-        typer.Option(
-            "--from",
-            metavar="HZ",
-            rich_help_panel=RESPONSE,
-            help="Or the lowest frequency; default 0.2.",
-        ),
-    ] = None,
-    highest: Annotated[
-        str | None,
-        typer.Option(
-            "--to", metavar="HZ", rich_help_panel=RESPONSE, help="The highest; default 40."
-        ),
-    ] = None,
-    points: Annotated[
-        str | None,
-        typer.Option(
-            metavar="N",
-            rich_help_panel=RESPONSE,
-            help="How many in between, evenly over the logarithm; default 2000.",
-        ),
-    ] = None,
-    plot: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FILE",
-            rich_help_panel=options.RESULT,
-            help="Draw magnitude and phase into this PNG, PDF or SVG file.",
-        ),
-    ] = None,
+    speed: SpeedOption = None,
+    at: AtOption = None,
+    source: SourceOption = None,
+    signal: SignalOption = None,
+    compare: CompareOption = None,
+    frequencies: FrequenciesOption = None,
+    lowest: FromOption = None,
+    highest: ToOption = None,
+    points: PointsOption = None,
+    plot: PlotOption = None,
     floor: options.FloorOption = "smooth",
     form: options.FormatOption = "table",
     to: options.OutputOption = None,
@@ -88,6 +83,8 @@ def bode(
     """Frequency response of the floor's acceleration to the track, wheelsets with exact delays.
 
     Example:  railride bode --speed 145 --speed 200 --plot bode.png
+
+    From an actuator:  railride bode --source f_1 --signal secondary_1_deflection
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
@@ -95,26 +92,60 @@ def bode(
     speeds = [given.positive("--speed", text, "km/h") for text in speed or ("200",)]
     places = [given.number("--at", text, "m") for text in at or ("0",)]
     f = _frequencies(given, frequencies, {"--from": lowest, "--to": highest, "--points": points})
+    choices = _compared(given, choice, compare)
     output.check_output(given.faults, "--output", to)
     output.check_output(given.faults, "--plot", plot)
     output.check_picture(given.faults, "--plot", plot)
     given.separate({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle})
+    found: list[tuple[int | None, BodeResponse]] = []
+    remarks: list[str] = []
     with working("responding"):
-        model = choice.model(given)
-        from railride import bodes
+        for one in choices:
+            model = one.model(given)
+            from railride import bodes
 
-        found = bodes.bode(model, speeds, f, at=places, floor=floor)
+            some = bodes.bode(model, speeds, f, at=places, floor=floor, source=source or TRACK,
+                              outputs=signal or FLOOR)  # fmt: skip
+            found += [(model.body.segments, response) for response in some]
+            remarks += [*model.vehicle.remarks, *model.remarks]
         if plot is not None:
             from railride import plots
 
-            plots.save(plots.plot_bode(found), plot)
-    remarks = [*model.vehicle.remarks, *model.remarks]
-    rows = [] if form == "table" else _rows(found)
-    text = output.result(form, {"response": rows}, rows, lambda: _table(found), remarks)
+            plots.save(plots.plot_bode([response for _, response in found]), plot)
+    remarks = [*dict.fromkeys(remarks), *_idle(found, {"--speed": speed, "--at": at})]
+    asked = {"segments": compare, "source": source, "output": signal, "unit": source or signal}
+    rows = [] if form == "table" else responses.rows(found, [k for k, v in asked.items() if v])
+    text = output.result(form, {"response": rows}, rows, lambda: responses.table(found), remarks)
     output.write(text, to)
     output.remark(remarks)
     if plot is not None:
         typer.echo(f"drawn: {plot}", err=True)
+
+
+def _compared(given: Arguments, choice: VehicleChoice, compare: str | None) -> list[VehicleChoice]:
+    """The vehicle, or one for each number of segments; faults are noted."""
+    if compare is None:
+        return [choice]
+    for option in ("--segments", "--body"):
+        if option in choice.given():
+            given.conflict("--compare-segments", option)
+    numbers = [text.strip() for text in compare.split(",")]
+    whole = [given.whole("--compare-segments", text, 1, MOST_SEGMENTS) for text in numbers]
+    if len(set(whole)) < len(whole) and None not in whole:
+        given.faults.add("--compare-segments", repr(compare), "each number once")
+    return [replace(choice, segments=text) for text in numbers]
+
+
+def _idle(
+    found: Sequence[tuple[int | None, BodeResponse]], given: dict[str, list[str] | None]
+) -> list[str]:
+    """Remarks on options that change nothing."""
+    remarks = []
+    if given["--speed"] and all(r.speed is None for _, r in found):
+        remarks.append("--speed changes nothing: a single wheelset or actuator stays in its place")
+    if given["--at"] and all(r.position is None for _, r in found):
+        remarks.append("--at changes nothing: no signal of the floor is asked for")
+    return remarks
 
 
 def _frequencies(given: Arguments, listed: str | None, band: dict[str, str | None]) -> Any:
@@ -134,69 +165,3 @@ def _frequencies(given: Arguments, listed: str | None, band: dict[str, str | Non
     import numpy as np
 
     return np.geomspace(low, high, count)
-
-
-def _rows(found: Sequence[BodeResponse]) -> list[dict[str, Any]]:
-    return [
-        {
-            "speed_kmh": kmh(r.speed),
-            "position_m": r.position,
-            "frequency_hz": f,
-            "magnitude": magnitude,
-            "phase_deg": phase,
-        }
-        for r in found
-        for f, magnitude, phase in zip(
-            r.frequency.tolist(), r.magnitude.tolist(), r.phase_deg.tolist(), strict=True
-        )
-    ]
-
-
-def _table(found: Sequence[BodeResponse]) -> str:
-    """Every frequency if they are few, else the peaks and dips; the geometric zeros below."""
-    first = found[0]
-    f = first.frequency
-    listed = f.size <= LISTED
-    title = (f"{first.vehicle} ({first.body}), {first.floor} floor: floor acceleration per track "
-             "elevation under the leading wheelset")  # fmt: skip
-    if not listed:
-        title += f"\nPeaks and dips among {f.size} frequencies, {f[0]:.6g} to {f[-1]:.6g} Hz"
-    columns = [
-        ("speed\n[km/h]", ".6g"), ("at\n[m]", ".6g"), ("frequency\n[Hz]", ".6g"),
-        ("|H|\n[(m/s²)/m]", ".5g"), ("phase\n[°]", ".1f"),
-    ]  # fmt: skip
-    rows: list[tuple[Any, ...]] = []
-    for r in found:
-        kinds = dict.fromkeys(range(f.size), "") if listed else _extremes(r.magnitude)
-        rows += [
-            (kmh(r.speed), r.position, f[k], r.magnitude[k], r.phase_deg[k], kind)
-            for k, kind in sorted(kinds.items())
-        ]
-    columns, rows = (columns, [row[:-1] for row in rows]) if listed else (
-        [*columns, ("", "")], rows)  # fmt: skip
-    return output.table_text(title, columns, rows) + _zeros(found)
-
-
-def _extremes(magnitude: Any) -> dict[int, str]:
-    """Places of the maxima and minima that stand out in the logarithm, and the ends."""
-    import numpy as np
-    from scipy.signal import find_peaks
-
-    level = np.log(np.maximum(magnitude, np.finfo(float).tiny))
-    found = {0: "", magnitude.size - 1: ""}
-    for sign, kind in ((1, "peak"), (-1, "dip")):
-        places, _ = find_peaks(sign * level, prominence=np.log(PROMINENT))
-        found |= dict.fromkeys(places.tolist(), kind)
-    return found
-
-
-def _zeros(found: Sequence[BodeResponse]) -> str:
-    """The geometric zeros, in words; nothing if there are none."""
-    lines = []
-    for r in found:
-        for zeros in r.zeros:
-            some = ", ".join(f"{f:.4g}" for f in zeros.frequency[:8])
-            more = ", …" if zeros.frequency.size > 8 else ""
-            lines.append(f"  {kmh(r.speed):g} km/h, {r.position:g} m, {zeros.cause} "
-                         f"{zeros.distance:g} m: {some}{more} Hz")  # fmt: skip
-    return "\nZeros at (k + ½)·V/distance:\n" + "\n".join(lines) + "\n" if lines else ""

@@ -21,7 +21,11 @@ _DEEPEST = 1e-5  # of the largest magnitude: what lies lower is a zero
 _TOGETHER = 0.03  # of the axis: natural frequencies so close to one another share a label
 _FEW = 40  # frequencies, each of which is shown as a point
 _MOST_PHASES = 20_000  # of one line: more than a picture shows, and more than Agg always takes
-_UNITS = {"m": "m/m", "m/s": "(m/s)/m", "m/s^2": "(m/s²)/m"}
+_SOURCES = {
+    "t": "from the track",
+    "w": "from wheelset {}",
+    "f": "from actuator {}",
+}
 
 
 def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None) -> Figure:
@@ -36,10 +40,10 @@ def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None
     Raises InputError for no response, and for responses of different units.
     """
     responses = tuple(responses)
-    units = sorted({r.output.unit for r in responses})
+    units = sorted({r.unit for r in responses})
     if len(units) != 1:
         raise InputError(f"responses: found {' and '.join(units) or 'none'}; expected at least one "
-                         "response, and all of one unit")  # fmt: skip
+                         "response, and all of one unit (draw others by themselves)")  # fmt: skip
     figure = canvas.new_figure(8.5, 7.4) if figure is None else figure
     top, above, below = figure.subplots(3, 1, sharex=True, height_ratios=(0.9, 4, 2.2))
     names = _distinct(responses)
@@ -49,7 +53,7 @@ def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None
         above.plot(*canvas.outline(r.frequency, r.magnitude), **look, label=name or None)
         below.plot(*_broken(r.frequency, r.phase_deg), **look)
     _scales(above, below, responses)
-    above.set_ylabel(f"magnitude [{_UNITS.get(units[0], f'({units[0]})/m')}]")
+    above.set_ylabel(f"magnitude [{units[0].replace('^2', '²')}]")
     below.set_ylabel("phase [°]")
     below.set_xlabel("frequency [Hz]")
     _mark_zeros(above, responses)
@@ -58,8 +62,13 @@ def plot_bode(responses: Sequence[BodeResponse], *, figure: Figure | None = None
     handles, labels = above.get_legend_handles_labels()  # zeros were marked after the lines
     if labels:
         figure.legend(handles, labels, loc="outside lower center", frameon=False,
-                      ncols=min(3, len(labels)), fontsize="small")  # fmt: skip
+                      ncols=_abreast(labels), fontsize="small")  # fmt: skip
     return figure
+
+
+def _abreast(labels: Sequence[str]) -> int:
+    """How many columns of a legend fit side by side: at most three."""
+    return max(1, min(3, len(labels), int(135 / (10 + max(map(len, labels))))))
 
 
 def _scales(above: Axes, below: Axes, responses: Sequence[BodeResponse]) -> None:
@@ -153,15 +162,23 @@ def _mark_modes(top: Axes, others: Sequence[Axes], responses: Sequence[BodeRespo
 
 
 def _facts(r: BodeResponse) -> tuple[str, ...]:
-    return (r.vehicle, r.body, f"{r.floor} floor", f"{3.6 * r.speed:.6g} km/h",
-            f"x = {r.position:g} m")  # fmt: skip
+    """What a response is of; what does not matter to it is empty."""
+    on_floor, signal = r.position is not None, r.signal.replace("_", " ")
+    return (
+        r.vehicle,
+        r.body,
+        f"{signal.removeprefix('floor ')} of the {r.floor} floor" if on_floor else signal,
+        _SOURCES[r.source[0]].format(r.source[2:]),
+        "" if r.speed is None else f"{3.6 * r.speed:.6g} km/h",
+        f"x = {r.position:g} m" if on_floor else "",
+    )
 
 
 def _distinct(responses: Sequence[BodeResponse]) -> list[str]:
     """What tells each response from the others."""
     columns = list(zip(*map(_facts, responses), strict=True))
     return [
-        ", ".join(column[k] for column in columns if len(set(column)) > 1)
+        ", ".join(column[k] for column in columns if len(set(column)) > 1 and column[k])
         for k in range(len(responses))
     ]
 
@@ -169,4 +186,4 @@ def _distinct(responses: Sequence[BodeResponse]) -> list[str]:
 def _common(responses: Sequence[BodeResponse]) -> str:
     """What all responses share."""
     columns = zip(*map(_facts, responses), strict=True)
-    return ", ".join(column[0] for column in columns if len(set(column)) == 1)
+    return ", ".join(column[0] for column in columns if len(set(column)) == 1 and column[0])
