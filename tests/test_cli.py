@@ -449,6 +449,8 @@ def test_deriving_loads_no_more_than_it_needs(tmp_path):
 
 def test_help_shows_an_example_that_runs(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{k / 200},{np.sin(k):.6f}\n" for k in range(4000))
+    (tmp_path / "floor.csv").write_text("time_s,z\n" + rows, encoding="utf-8")
     texts = [command.__doc__ for command in commands()] + [railride.cli.app.info.help]
     assert len(texts) == 1 + len(commands())
     for text in texts:
@@ -465,7 +467,7 @@ def test_help_shows_an_example_that_runs(run, tmp_path, monkeypatch):
 def test_the_commands_are_those_there_are(run):
     code, out, _ = run("--help")
     assert code == 0
-    for name in ("bode", "derive", "map", "modes", "ride", "track"):
+    for name in ("bode", "comfort", "compare", "derive", "map", "modes", "ride", "track"):
         assert re.search(rf"\b{name}\b", out)
     assert run("--version")[1] == f"railride {railride.__version__}\n"
 

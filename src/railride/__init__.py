@@ -46,7 +46,8 @@ _WHERE = {
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
               "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",
-              "plot_loci", "plot_loop_spectra", "plot_loops", "plot_modes", "plot_ride",
+              "plot_loci", "plot_loop_spectra", "plot_loops", "plot_modes", "plot_record",
+              "plot_record_rating", "plot_record_spectrum", "plot_ride", "plot_running_rms",
               "plot_root_locus", "plot_track", "plot_track_overview", "plot_track_spectrum"),
     "errors": ("InputError",),
 }  # fmt: skip

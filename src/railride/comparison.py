@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from railride.bodies.choice import KINDS
 from railride.errors import InputError
 from railride.modal import modes
 from railride.numeric import Array
@@ -201,7 +202,7 @@ def available_elements(counts: Sequence[int]) -> tuple[int, ...]:
     """
     from importlib.util import find_spec
 
-    return tuple(counts) if find_spec("skfem") else ()
+    return tuple(counts) if "fe" in KINDS and find_spec("skfem") else ()
 
 
 def _usual_places(vehicle: Vehicle) -> list[float]:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 import typer
 
 from railride.cli.bode import bode
+from railride.cli.comfort import comfort
 from railride.cli.compare import compare
 from railride.cli.derive import derive
 from railride.cli.map import comfort_map
@@ -26,6 +27,7 @@ app = typer.Typer(
 )
 COMMANDS: dict[str, Callable[..., None]] = {
     "bode": bode,
+    "comfort": comfort,
     "compare": compare,
     "derive": derive,
     "map": comfort_map,

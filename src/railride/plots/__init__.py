@@ -16,6 +16,12 @@ from railride.plots.comparison import (
 )
 from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import MOST_MODES, chosen_modes, left_out, plot_modes
+from railride.plots.records import (
+    plot_record,
+    plot_record_rating,
+    plot_record_spectrum,
+    plot_running_rms,
+)
 from railride.plots.rides import plot_acceleration, plot_ride, save_ride_plots
 from railride.plots.stochastic import (
     plot_comfort,
@@ -44,8 +50,12 @@ __all__ = [
     "plot_loop_spectra",
     "plot_loops",
     "plot_modes",
+    "plot_record",
+    "plot_record_rating",
+    "plot_record_spectrum",
     "plot_ride",
     "plot_root_locus",
+    "plot_running_rms",
     "plot_track",
     "plot_track_overview",
     "plot_track_spectrum",
