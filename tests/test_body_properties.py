@@ -15,7 +15,7 @@ from vehicles import mirrored, random_vehicle
 
 from railride.bodies import BodyModes, ModalBody
 from railride.modal import modes
-from railride.parameters import Load, load_vehicle
+from railride.parameters import Equipment, Load, load_vehicle
 from railride.vehicle import VehicleModel, derive_vehicle
 
 MASS, LENGTH = 34e3, 24.0
@@ -66,6 +66,12 @@ BODIES = {
     "random beam": lambda: derive_vehicle(random_vehicle(3, graded=False), body="beam", modes=4),
     "loaded": lambda: derive_vehicle(replace(coach(), payload=LOADS), 4),
     "loaded beam": lambda: derive_vehicle(replace(coach(), payload=LOADS), body="beam", modes=5),
+}
+HUNG = (Equipment(1500.0, 1.7, frequency=8.8, damping_ratio=0.12),
+        Equipment(900.0, -8.0, stiffness=3e6, damping=2e3))  # fmt: skip
+BODIES |= {
+    "hung": lambda: derive_vehicle(replace(coach(), equipment=HUNG), 4),
+    "hung beam": lambda: derive_vehicle(replace(coach(), equipment=HUNG), body="beam", modes=5),
 }
 LOADED = {"loaded", "loaded beam"}
 SYMMETRIC = {"rigid", "rods", "halves", "beam", "shear beam", "one mode"}
@@ -232,7 +238,7 @@ def test_free_frequencies_and_damping_are_those_of_the_body(name):
     if n == 2 or name in LOADED:
         return
     soft = {p.symbol.name: (1.0 if "k_2" in p.symbol.name else 0.0) for p in found.parameters
-            if p.symbol.name.startswith(("k_2", "c_2"))}  # fmt: skip
+            if p.symbol.name.startswith(("k_2", "c_2", "c_e", "zeta_e"))}  # fmt: skip
     m = found.matrices(**soft)
     C, M = m.C[:n, :n], m.M[:n, :n]
     shapes = scipy.linalg.eigh(A["K"], M)[1][:, 2:]
@@ -246,7 +252,7 @@ def test_free_frequencies_and_damping_are_those_of_the_body(name):
 @every_body
 def test_modes_are_named_each_once(name):
     found = modes(model(name))
-    labels = [m.label for m in found if not m.label.startswith("bogie")]
+    labels = [m.label for m in found if not m.label.startswith(("bogie", "equipment"))]
     bending = [f"bending {i}" for i in range(1, own(name) - 1)]
     assert sorted(labels) == sorted(["heave", "pitch", *bending])
 

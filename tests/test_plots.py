@@ -20,7 +20,7 @@ from railride import plots
 from railride.errors import InputError
 from railride.loci import mode_locus
 from railride.modal import Mode, modes
-from railride.parameters import load_vehicle
+from railride.parameters import Equipment, load_vehicle
 from railride.plots import (
     plot_acceleration,
     plot_modes,
@@ -563,3 +563,17 @@ def test_loci_where_nothing_oscillates_or_moves_can_be_drawn():
 def test_a_ride_is_headed_with_its_body():
     figure = plot_ride(result(case(), body="rigid body"))
     assert "(rigid body)" in figure.get_suptitle()
+
+
+def test_equipment_is_drawn_under_the_floor_where_it_goes():
+    one = Equipment(2000.0, 3.0, frequency=8.8)
+    model = derive_vehicle(replace(load_vehicle("cati2024"), equipment=(one,)), body="beam")
+    mode = next(m for m in modes(model) if m.label == "equipment 1")
+    shape = mode_shape(model, mode)
+    row = [q.name for q in model.lagrangian.coordinates].index("z_e1")
+    turned = mode.shape[row] / shape.equipment[0]  # the same turn for all that moves
+    floor = model.output_rows([model.floor(12.0, derivative=0)])["d"][0] @ mode.shape
+    assert_allclose((floor / turned).real, shape.floor[0], atol=1e-9)
+    figure = plots.plot_modes(model, [mode])
+    marks = [line for line in figure.axes[0].lines if line.get_label() == "equipment"]
+    assert_allclose(marks[0].get_xdata(), 3.0)

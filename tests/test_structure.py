@@ -20,7 +20,7 @@ ORDER = """
 errors files units tables toml_tables quantities body_profile car_body vehicle_data
 record_tables body_tables parameters
 lagrange jets linear halfbody numeric
-plausibility bodies running_gear parameter_values vehicle
+plausibility bodies carried running_gear parameter_values vehicle
 firstorder naming modal loci statespace spectra frequency bodes
 track trackfile response weightings scales comfort records stochastic timerun rides active
 comparison

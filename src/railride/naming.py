@@ -78,11 +78,12 @@ class Motions:
 
 
 def free_motions(model: VehicleModel, A: Matrices) -> tuple[list[str], Array]:
-    """Labels, and shapes as columns, of the free body's and the bogies' motions."""
+    """Labels, and shapes as columns, of the free body's, the equipment's, the bogies' motions."""
     n, bogies = A.M.shape[-1], len(model.vehicle.bogies)
     inertial = int(A.inertial.sum())
-    own = inertial - 2 * bogies
-    labels = ["heave", "pitch", *(f"bending {k}" for k in range(1, own - 1))]
+    hung = [f"equipment {e}" for e in model.carried.equipment]
+    own = inertial - 2 * bogies - len(hung)
+    labels = ["heave", "pitch", *(f"bending {k}" for k in range(1, own - 1)), *hung]
     basis = np.eye(n)[:, :inertial]
     basis[:own, :own] = _free_body_shapes(model, A.M[:own, :own])
     return labels + [*BOGIE] * bogies, basis

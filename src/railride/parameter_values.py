@@ -11,6 +11,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from railride.bodies import BodyModel, Parameter
+from railride.carried import Carried
 from railride.errors import InputError
 from railride.lagrange import Lagrangian, Signal
 from railride.numeric import Array, MatrixFunction
@@ -31,17 +32,24 @@ AMBIGUOUS = ("mass", "pitch_inertia")  # of the body or of a bogie
 
 
 class ParameterValues:
-    """Values of every parameter of a car body on its running gear, by symbol.
+    """Values of every parameter of a car body, what it carries and its running gear, by symbol.
 
     Parameters
     ----------
-    body, running_gear : what has the parameters. system : their energies.
+    body, carried, running_gear : what has the parameters. system : their energies.
     """
 
-    def __init__(self, body: BodyModel, running_gear: RunningGear, system: Lagrangian) -> None:
+    def __init__(
+        self, body: BodyModel, carried: Carried, running_gear: RunningGear, system: Lagrangian
+    ) -> None:
         self.body, self.running_gear = body, running_gear
-        self.independent: tuple[Parameter, ...] = (*body.parameters, *running_gear.parameters)
-        known = {p.symbol for p in self.independent} | set(body.definitions)
+        self.independent: tuple[Parameter, ...] = (
+            *body.parameters,
+            *running_gear.parameters,
+            *carried.parameters,
+        )
+        self.definitions = {**body.definitions, **carried.definitions}
+        known = {p.symbol for p in self.independent} | set(self.definitions)
         left = _parameters_of(system) - known
         self.dependent = sorted(left, key=lambda s: (len(s.name), s.name))
 
@@ -55,7 +63,7 @@ class ParameterValues:
         """
         values = {p.symbol.name: np.asarray(p.value, dtype=float) for p in self.independent}
         symbols = {p.symbol.name: p.symbol for p in self.independent}
-        symbols |= {s.name: s for s in (*self.body.definitions, *self.body.followers)}
+        symbols |= {s.name: s for s in (*self.definitions, *self.body.followers)}
         for name, value in changes.items():
             values[name] = _as_numbers(name, value)
             _refuse_impossible(name, values[name], symbols.get(name))
@@ -81,7 +89,7 @@ class ParameterValues:
         InputError : a name that the model does not have, with those it has and the near ones.
         """
         symbols = {p.symbol.name: p.meaning for p in self.independent}
-        symbols |= {s.name: "follows from others" for s in self.body.definitions}
+        symbols |= {s.name: "follows from others" for s in self.definitions}
         symbols |= {s.name: meaning for s, (meaning, _) in self.body.followers.items()}
         keys = dict(KEYS)
         for key in {**SYMBOLS, **OPTIONAL}:
@@ -99,7 +107,7 @@ class ParameterValues:
     def _definitions(self) -> dict[str, MatrixFunction]:
         return {
             symbol.name: MatrixFunction({symbol.name: sp.Matrix([[definition]])})
-            for symbol, definition in self.body.definitions.items()
+            for symbol, definition in self.definitions.items()
         }
 
 

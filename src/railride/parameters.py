@@ -2,15 +2,18 @@
 
 A file has the top-level keys ``name``, ``source`` and ``remarks``; a table ``[body]``; a table
 ``[bogie]`` of what all bogies share; one table ``[[bogies]]`` for each, from the front, with its
-``position`` and whatever differs; and a table ``[[payload]]`` for each load, if any. The keys are
-the fields of :class:`CarBody`, :class:`Bogie` and :class:`Load`, the values ``"number unit"``. Any
-table may explain itself: ``note`` and ``source`` are texts, ``notes`` a table of texts by key.
+``position`` and whatever differs; and a table ``[[payload]]`` for each load and ``[[equipment]]``
+for each mass on elastic mounts under the floor, if any. The keys are the fields of
+:class:`CarBody`, :class:`Bogie`, :class:`Load` and :class:`Equipment`, the values
+``"number unit"``. Any table may explain itself: ``note`` and ``source`` are texts, ``notes`` a
+table of texts by key.
 """
 
 from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
@@ -24,9 +27,12 @@ from railride.record_tables import note_all_missing, note_missing, read_values, 
 from railride.toml_tables import Table, read_toml, shown, toml_text
 from railride.vehicle_data import (
     Bogie,
+    Equipment,
     Load,
     Vehicle,
     check_arrangement,
+    check_equipment,
+    check_hung,
     check_load,
     check_mounts,
     check_payload,
@@ -38,6 +44,7 @@ __all__ = [
     "BodyProfile",
     "Bogie",
     "CarBody",
+    "Equipment",
     "Load",
     "PointMass",
     "Vehicle",
@@ -100,10 +107,12 @@ def _read_vehicle(path: Path) -> Vehicle:
     check_texts(path.stem if name is None else name, source or "", remarks, faults)
     body = read_body(top, path.parent, faults)
     bogies = _read_bogies(top, faults)
-    payload = _read_payload(top, faults)
+    payload = _read_each(top, "payload", Load, check_load, faults)
+    equipment = _read_each(top, "equipment", Equipment, check_equipment, faults)
     top.finish()
     check_arrangement(body, bogies, faults)
     check_payload(body, payload, faults)
+    check_hung(body, equipment, faults)
     faults.raise_if_any()
     return Vehicle(
         name=path.stem if name is None else name,
@@ -112,6 +121,7 @@ def _read_vehicle(path: Path) -> Vehicle:
         source=source or "",
         remarks=remarks,
         payload=tuple(Load(**load) for load in payload),
+        equipment=tuple(Equipment(**one) for one in equipment),
     )
 
 
@@ -144,16 +154,22 @@ def _read_bogies(top: Table, faults: Faults) -> list[dict[str, Any]]:
     return bogies
 
 
-def _read_payload(top: Table, faults: Faults) -> list[dict[str, Any]]:
-    """Values of each of ``[[payload]]``."""
-    loads = []
-    for table in top.tables("payload"):
-        load = read_values(table, fields(Load))
+def _read_each(
+    top: Table,
+    name: str,
+    record: type[Load | Equipment],
+    check: Callable[[Mapping[str, Any], str, Faults], None],
+    faults: Faults,
+) -> list[dict[str, Any]]:
+    """Values of each of the tables ``[[name]]``."""
+    found = []
+    for table in top.tables(name):
+        values = read_values(table, fields(record))
         table.finish()
-        note_all_missing(table, fields(Load), faults)
-        check_load(load, table.key(""), faults)
-        loads.append(load)
-    return loads
+        note_all_missing(table, fields(record), faults)
+        check(values, table.key(""), faults)
+        found.append(values)
+    return found
 
 
 def to_toml(vehicle: Vehicle) -> str:
@@ -178,6 +194,8 @@ def to_toml(vehicle: Vehicle) -> str:
         lines += ["", "[[bogies]]", *written(bogie, own)]
     for load in vehicle.payload:
         lines += ["", "[[payload]]", *written(load, fields(Load))]
+    for one in vehicle.equipment:
+        lines += ["", "[[equipment]]", *written(one, fields(Equipment))]
     return "\n".join(lines) + "\n"
 
 

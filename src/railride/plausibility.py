@@ -35,6 +35,7 @@ def doubts(vehicle: Vehicle) -> tuple[str, ...]:
     body, bogies = vehicle.body, vehicle.bogies
     found = []
     mass = body.mass + sum(load.mass for load in vehicle.payload)
+    mass += sum(one.mass for one in vehicle.equipment)
     k, c = (sum(getattr(b, f"secondary_{of}") for b in bogies) for of in ("stiffness", "damping"))
     found += _oscillator("the car body on its secondary suspension", mass, k, c, HEAVE_HZ)
     for number, b in enumerate(bogies, start=1):

@@ -11,6 +11,7 @@ at its end the same mathematics stands as text that sympy reads back.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -107,6 +108,7 @@ MEANING = {
     "z_c": "height of the car body's mass centre",
     "theta_c": "pitch of the car body",
     "eta_": "how far the car body's bending mode {} is out, where its shape is 1",
+    "z_e": "height of equipment {}",
     "z_b": "height of bogie {}'s mass centre",
     "theta_b": "pitch of bogie {}",
     "z_": "height of node {} of the car body",
@@ -122,8 +124,9 @@ def _meaning(name: str, last: int | None) -> str:
 
 
 def _coordinates(model: VehicleModel) -> list[Block]:
-    system, bogies = model.lagrangian, len(model.vehicle.bogies)
-    n, own = len(system.coordinates), len(system.coordinates) - 2 * bogies
+    system = model.lagrangian
+    n, own = len(system.coordinates), len(model.body.energies.coordinates)
+    hung = len(model.carried.equipment)
     rows = [
         (f"${math(q)}$", _meaning(q.name, model.body.segments), "rad" if "theta" in q.name else "m")
         for q in system.coordinates
@@ -134,7 +137,8 @@ def _coordinates(model: VehicleModel) -> list[Block]:
                   "pitch is positive nose-up. Everything counts from static equilibrium, where "
                   "preloads carry the weight, and is numbered from the front."),
         Table(("coordinate", "meaning", "unit"), rows),
-        Paragraph(f"The car body has {own} coordinates and each bogie 2: {n} degrees of freedom."),
+        Paragraph(f"The car body has {own} coordinates{', each equipment 1' if hung else ''} and "
+                  f"each bogie 2: {n} degrees of freedom."),
         Paragraph(f"Inputs: the track elevations ${_listed(system.inputs)}$ under the wheelsets, "
                   f"m, and their rates. Forces: ${_listed(system.forces)}$, N, one actuator to "
                   "each bogie, positive when it pushes body and bogie apart."),
@@ -145,12 +149,13 @@ def _kinematics(system: Lagrangian) -> list[Block]:
     groups = {
         "Pitch of the segments": "theta_",
         "Places of the segments' middles along the track (the car body's middle is held)": "x_",
-        "Extensions of the secondary suspension": "s_",
+        "Extensions of the equipment's mounts": "s_e",
+        "Extensions of the secondary suspension": r"s_\d",
         "Extensions of the primary suspension": "p_",
     }
     blocks: list[Block] = [Heading("Kinematics")]
     for title, head in groups.items():
-        named = {u: r for u, r in system.kinematics.items() if u.name.startswith(head)}
+        named = {u: r for u, r in system.kinematics.items() if re.match(head, u.name)}
         if named:
             blocks += [Paragraph(f"{title}:"), *_definitions(named)]
     blocks.append(Paragraph("Their rates follow by the chain rule."))

@@ -100,11 +100,10 @@ class RunningGear:
         """The bogies' numbers."""
         return range(1, len(self.vehicle.bogies) + 1)
 
-    def under(self, body: BodyModel) -> Lagrangian:
-        """The whole vehicle: a free body's energies and those of the bogies under it."""
-        free = body.energies
-        T, V, D = [free.kinetic], [free.potential], [free.dissipation]
-        kinematics = dict(free.kinematics)
+    def under(self, body: BodyModel, loaded: Lagrangian) -> Lagrangian:
+        """The whole vehicle: the energies of a body with what it carries, and of the bogies."""
+        T, V, D = [loaded.kinetic], [loaded.potential], [loaded.dissipation]
+        kinematics = dict(loaded.kinematics)
         for b in self.bogies:
             m_b, I_b, k_1, c_1, k_2, c_2 = (self.symbol(name, b) for name in SYMBOLS)
             z, theta, s = bogie_heave(b), bogie_pitch(b), secondary_deflection(b)
@@ -119,12 +118,10 @@ class RunningGear:
                 V.append(k_1 * p**2 / 2)
                 stroke = self._stroke("primary_damper_stiffness", b, p, primary_stroke(j), V)
                 D.append(c_1 * stroke.dot**2 / 2)
-        loads = zip(self.load_symbols, self.vehicle.payload, strict=True)
-        T += [body.load_energy(mass, load) for mass, load in loads]
         own = [q(b) for b in self.bogies for q in (bogie_heave, bogie_pitch)] + self.strokes
         wheelsets = range(1, len(self.vehicle.wheelset_positions) + 1)
         return Lagrangian(
-            [*free.coordinates, *own],
+            [*loaded.coordinates, *own],
             sp.Add(*T),
             sp.Add(*V),
             sp.Add(*D),
@@ -152,16 +149,7 @@ class RunningGear:
                 for symbol in place.free_symbols:
                     sign = int(place / symbol)
                     found[symbol] = Parameter(symbol, meaning, "m", sign * value)
-        for mass, load in zip(self.load_symbols, self.vehicle.payload, strict=True):
-            found[mass] = Parameter(mass, "payload", "kg", load.mass)
         return tuple(found.values())
-
-    @property
-    def load_symbols(self) -> list[sp.Symbol]:
-        """The masses of the loads: m_p, or m_p1, m_p2 …"""
-        loads = len(self.vehicle.payload)
-        names = ["m_p"] if loads == 1 else [f"m_p{k}" for k in range(1, loads + 1)]
-        return [sp.Symbol(name, positive=True) for name in names]
 
     @property
     def strokes(self) -> list[Coordinate]:

@@ -17,8 +17,9 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from railride.bodies import BodyModel, Parameter
+from railride.bodies import BodyModel, Parameter, Place
 from railride.bodies.choice import body_model
+from railride.carried import Carried, equipment_heave, mount_deflection
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.linear import LinearModel, linearise, output_rows
@@ -93,9 +94,14 @@ class VehicleModel:
         return RunningGear(self.vehicle)
 
     @cached_property
+    def carried(self) -> Carried:
+        """Payload and equipment."""
+        return Carried(self.vehicle)
+
+    @cached_property
     def lagrangian(self) -> Lagrangian:
         """The vehicle's coordinates, energies, inputs and actuator forces."""
-        return self.running_gear.under(self.body)
+        return self.running_gear.under(self.body, self.carried.on(self.body))
 
     @cached_property
     def linear(self) -> LinearModel:
@@ -104,12 +110,19 @@ class VehicleModel:
 
     @cached_property
     def _values(self) -> ParameterValues:
-        return ParameterValues(self.body, self.running_gear, self.lagrangian)
+        return ParameterValues(self.body, self.carried, self.running_gear, self.lagrangian)
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """Every independent parameter with its value: the body's, then the bogies'."""
         return self._values.independent
+
+    @property
+    def _places(self) -> dict[Coordinate, Place]:
+        """Where on the body what has a heave of its own is attached: bogies and equipment."""
+        gear, carried = self.running_gear, self.carried
+        found = {bogie_heave(b): gear.place(b) for b in gear.bogies}
+        return found | {equipment_heave(e): carried.place(e) for e in carried.equipment}
 
     def symbol_of(self, name: str) -> str:
         """The symbol behind the name of a parameter: itself, or its key in parameter files.
@@ -124,8 +137,8 @@ class VehicleModel:
     def meanings(self) -> dict[str, tuple[str, str]]:
         """What parameters mean, and their units, by symbol; empty between others."""
         known = self._values
-        dependent = (*self.body.definitions, *self.body.followers, *known.dependent)
-        found = {s.name: self.body.meaning(s) for s in dependent}
+        dependent = (*known.definitions, *self.body.followers, *known.dependent)
+        found = {s.name: max(self.body.meaning(s), self.carried.meaning(s)) for s in dependent}
         return found | {p.symbol.name: (p.meaning, p.unit) for p in known.independent}
 
     def values(self, **changes: ArrayLike) -> dict[str, Array]:
@@ -165,8 +178,8 @@ class VehicleModel:
         (3, 7, 7)
         """
         values = self.values(**changes)
-        for b in self.running_gear.bogies:
-            self.body.check_moved(self.running_gear.place(b), values)
+        for place in self._places.values():
+            self.body.check_moved(place, values)
         matrices = Matrices(**self._numeric(values), lift=self.lift)
         self._refuse_untrustworthy(matrices)
         return matrices
@@ -175,9 +188,8 @@ class VehicleModel:
     def lift(self) -> Array:
         """u₀: the coordinates of a uniform lift of the whole vehicle by 1 m."""
         body = self.body.lift
-        heaves = {bogie_heave(b) for b in self.running_gear.bogies}
         return np.array([
-            float(body.get(q, q in heaves)) for q in self.lagrangian.coordinates
+            float(body.get(q, q in self._places)) for q in self.lagrangian.coordinates
         ])  # fmt: skip
 
     def pitch(self, **changes: ArrayLike) -> Array:
@@ -186,7 +198,7 @@ class VehicleModel:
         Shape (..., n). Track, bogies and body turned by one angle: w_j is the wheelset's place.
         """
         turn = dict.fromkeys(map(bogie_pitch, self.running_gear.bogies), sp.S.One)
-        turn |= {bogie_heave(b): self.running_gear.place(b).x for b in self.running_gear.bogies}
+        turn |= {heave: place.x for heave, place in self._places.items()}
         turn |= self.body.pitch
         column = sp.Matrix([turn.get(q, sp.S.Zero) for q in self.lagrangian.coordinates])
         return MatrixFunction({"turn": column})(self.values(**changes))["turn"][..., 0]
@@ -218,7 +230,7 @@ class VehicleModel:
 
     @cached_property
     def outputs(self) -> dict[str, Output]:
-        """Outputs by name: each bogie's acceleration, every suspension deflection, wheel loads.
+        """Outputs by name: accelerations of bogies and equipment, deflections, wheel loads.
 
         The dynamic wheel load counts from the static one, and is there where the wheelset's mass is
         known. It feels the second rate of the elevation: only the frequency domain holds it.
@@ -234,6 +246,10 @@ class VehicleModel:
                 if self.vehicle.bogies[b - 1].wheelset_mass is not None:
                     load = self.running_gear.wheel_load(b, j)
                     found.append(Output(f"wheel_load_{j}", load, "N", f"Q_{{{j}}}"))
+        for e in self.carried.equipment:
+            z, s = equipment_heave(e), mount_deflection(e)
+            found.append(Output(f"equipment_{e}_acceleration", z.ddot, "m/s^2", sp.latex(z.ddot)))
+            found.append(Output(f"equipment_{e}_deflection", s, "m", sp.latex(s)))
         return {output.name: output for output in found}
 
     def output_rows(self, outputs: Sequence[Output], **changes: ArrayLike) -> dict[str, Array]:

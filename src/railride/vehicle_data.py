@@ -77,11 +77,38 @@ class Load:
 
 
 @dataclass(frozen=True)
+class Equipment:
+    """Equipment under the floor, hung on elastic mounts at ``position``.
+
+    mass: kg; it is not part of the car body's. position: m forward of the body's middle.
+    stiffness: N/m, of its mounts together; or frequency: Hz, its natural frequency on them while
+    the body stands still. damping: N s/m, of the mounts together; or damping_ratio, on them.
+
+    Raises InputError, with all faults at once, for values that no equipment can have.
+
+    >>> Equipment(1500.0, 0.0, frequency=8.8, damping_ratio=0.12).mass
+    1500.0
+    """
+
+    mass: float = field(metadata=si("kg", "> 0"))
+    position: float = field(metadata=si("m"))
+    stiffness: float | None = field(default=None, metadata=si("N/m", "> 0"))
+    frequency: float | None = field(default=None, metadata=si("Hz", "> 0"))
+    damping: float | None = field(default=None, metadata=si("N s/m", ">= 0"))
+    damping_ratio: float = field(default=0.0, metadata=si("", ">= 0"))
+
+    def __post_init__(self) -> None:
+        faults = Faults("equipment")
+        check_equipment(checked_numbers(self, faults), "", faults)
+        faults.raise_if_any()
+
+
+@dataclass(frozen=True)
 class Vehicle:
     """A car body on its bogies, from the front.
 
     name: one line. source: where the values come from. remarks: what a user of them must know.
-    payload: what is added to the empty car body.
+    payload: what is added to the empty car body. equipment: what hangs under its floor.
 
     Raises InputError, with all faults at once, where the parts do not fit together: fewer than
     two bogies (the body would tip), a bogie outside the body, bogies or wheelsets out of order.
@@ -93,10 +120,11 @@ class Vehicle:
     source: str = ""
     remarks: tuple[str, ...] = ()
     payload: tuple[Load, ...] = ()
+    equipment: tuple[Equipment, ...] = ()
 
     def __post_init__(self) -> None:
         faults = Faults(f"vehicle {shown(self.name)}")
-        for name in ("bogies", "remarks", "payload"):
+        for name in ("bogies", "remarks", "payload", "equipment"):
             value = getattr(self, name)
             if isinstance(value, Sequence) and not isinstance(value, str):
                 object.__setattr__(self, name, tuple(value))
@@ -106,15 +134,14 @@ class Vehicle:
         check_texts(self.name, self.source, self.remarks, faults)
         if not isinstance(self.body, CarBody):
             faults.add("body", shown(self.body), "a CarBody")
-        for i, bogie in enumerate(self.bogies, 1):
-            if not isinstance(bogie, Bogie):
-                faults.add(f"bogies[{i}]", shown(bogie), "a Bogie")
-        for i, load in enumerate(self.payload, 1):
-            if not isinstance(load, Load):
-                faults.add(f"payload[{i}]", shown(load), "a Load")
+        for name, kind in (("bogies", Bogie), ("payload", Load), ("equipment", Equipment)):
+            for i, part in enumerate(getattr(self, name), 1):
+                if not isinstance(part, kind):
+                    faults.add(f"{name}[{i}]", shown(part), f"of type {kind.__name__}")
         faults.raise_if_any()
         check_arrangement(vars(self.body), [vars(bogie) for bogie in self.bogies], faults)
         check_payload(vars(self.body), [vars(load) for load in self.payload], faults)
+        check_hung(vars(self.body), [vars(one) for one in self.equipment], faults)
         faults.raise_if_any()
 
     @property
@@ -180,6 +207,28 @@ def check_payload(
                 faults.add(f"payload[{i}].{end}", f"{place:g} m",
                            f"a place on the body, at most {length / 2:g} m from its "
                            "middle")  # fmt: skip
+
+
+def check_equipment(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:
+    """Note mounts of which the stiffness or the damping is not known, or known twice."""
+    stiffness, frequency = values.get("stiffness"), values.get("frequency")
+    if (stiffness is None) == (frequency is None):
+        faults.add(f"{prefix}stiffness", "nothing" if stiffness is None else "frequency with it",
+                   "the stiffness of the mounts, or the frequency on them")  # fmt: skip
+    if values.get("damping") is not None and values.get("damping_ratio"):
+        faults.add(f"{prefix}damping_ratio", "damping with it", "one of the two")
+
+
+def check_hung(
+    body: Mapping[str, Any], equipment: Sequence[Mapping[str, Any]], faults: Faults
+) -> None:
+    """Note equipment that does not hang under the car body."""
+    length = body.get("length")
+    for i, one in enumerate(equipment, 1):
+        place = one.get("position")
+        if length is not None and place is not None and abs(place) > length / 2:
+            faults.add(f"equipment[{i}].position", f"{place:g} m", "a place under the body, at "
+                       f"most {length / 2:g} m from its middle")  # fmt: skip
 
 
 def check_texts(name: object, source: object, remarks: Sequence[object], faults: Faults) -> None:

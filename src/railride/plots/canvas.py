@@ -24,6 +24,7 @@ WEIGHTED = "#B34700"
 SPECTRUM = "#D55E00"
 BODY = "#0072B2"
 BOGIE = "#D55E00"
+EQUIPMENT = "#009E73"
 REST = "#BBBBBB"
 
 # Lines to be told apart, by colour and in grey print: the style shifts on every round of colours.

@@ -26,7 +26,7 @@ MOST_MODES = 15  # mode shapes in one picture
 _TWO_COLUMNS = 8  # of mode shapes as many fit into two columns
 _NAMED = 8  # of those that are left out
 # A drawing's own heights: the largest displacement is 1.
-_RAIL, _BOGIE, _FLOOR, _HEIGHT = 0.0, 1.6, 3.8, 1.6
+_RAIL, _BOGIE, _HUNG, _FLOOR, _HEIGHT = 0.0, 1.6, 2.9, 3.8, 1.6
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,14 @@ class ModeShape:
 
     nodes : x, m, shape (N + 1,), from the front; jointed : they are those of segments.
     floor : displacement there. heave, pitch : of each bogie, shape (bogies,), the pitch per m.
+    equipment : displacement of each under the floor.
     """
 
     nodes: FloatArray
     floor: FloatArray
     heave: FloatArray
     pitch: FloatArray
+    equipment: FloatArray
     jointed: bool = True
 
 
@@ -56,16 +58,19 @@ def mode_shape(model: VehicleModel, mode: Mode, turned: complex = 1.0) -> ModeSh
     nodes = model.body.nodes
     rows = model.output_rows([model.floor(x, "polygon", 0) for x in nodes.tolist()])["d"]
     floor = rows @ mode.shape
+    names = [q.name for q in model.lagrangian.coordinates]
+    hung = np.array([mode.shape[names.index(q.name)] for q in model.carried.coordinates])
     # The strokes of dampers on elastic mounts come after the bogies.
-    first = [q.name for q in model.lagrangian.coordinates].index("z_b1")
+    first = names.index("z_b1")
     heave, pitch = mode.shape[first : first + 2 * bogies].reshape(bogies, 2).T
     above = [heave[b] + pitch[b] * np.array([0.0, *bogie.wheelsets])
              for b, bogie in enumerate(vehicle.bogies)]  # fmt: skip
-    every = np.concatenate([floor, *above])
+    every = np.concatenate([floor, *above, hung])
     size = np.abs(every)
     largest = every[np.argmax(size > (1 - 1e-6) * size.max())]  # of equals the foremost: nose up
-    floor, heave, pitch = (np.real(part * (turned / largest)) for part in (floor, heave, pitch))
-    return ModeShape(nodes, floor, heave, pitch, model.body.segments is not None)
+    floor, heave, pitch, hung = (np.real(part * (turned / largest))
+                                 for part in (floor, heave, pitch, hung))  # fmt: skip
+    return ModeShape(nodes, floor, heave, pitch, hung, model.body.segments is not None)
 
 
 def plot_modes(
@@ -178,6 +183,11 @@ def draw(ax: Axes, vehicle: Vehicle, shape: ModeShape) -> None:
             _suspension(ax, x + lever, _RAIL, _BOGIE + heave + pitch * lever)
         ax.plot(x + ends, _BOGIE + heave + pitch * ends, color=canvas.BOGIE, linewidth=2.4,
                 label="bogies" if b == 0 else None)  # fmt: skip
+    for e, (one, heave) in enumerate(zip(vehicle.equipment, shape.equipment, strict=True)):
+        held = float(np.interp(one.position, shape.nodes[::-1], floor[::-1]))
+        _suspension(ax, one.position, _HUNG + heave, held)
+        ax.plot(one.position, _HUNG + heave, color=canvas.EQUIPMENT, marker="s", markersize=6,
+                linestyle="", label="equipment" if e == 0 else None)  # fmt: skip
     ax.axhline(_RAIL, color=canvas.TRACK, linewidth=1.5, label="rail")
     ax.set_ylim(_RAIL - 0.2, _FLOOR + _HEIGHT + 1.2)
     ax.set_yticks([])
