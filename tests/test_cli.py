@@ -19,6 +19,7 @@ import pytest
 import sympy as sp
 
 import railride.cli
+from railride import derive_vehicle, spectrum, stochastic_ride
 from railride.cli import output, progress
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -272,11 +273,48 @@ def test_travel_adds_suspension_travel_and_wheel_loads(result, run):
     assert [one["distance_m"] for one in travel] == [500]
     assert travel[0]["low_pass_hz"] is None
     assert 2.5 < travel[0]["expected_peak"] / travel[0]["rms"] < 4
+    assert all(0 < one["error"] < 1e-6 for one in outputs)
     assert "outputs" not in result(*given[:-1])
     table = run(*given)[1]
+    assert "\nSuspension travel and wheel load over 1000 m, exact\n" in table
     assert "wheel_load_1" in table
     assert "kN" in table
     assert max(map(len, table.splitlines())) <= 120
+
+
+def test_missing_wheel_loads_are_remarked_on(result, run):
+    given = ("ride", "--spectral", "--speed", "200", "--travel", "--segments", "1")
+    (remark,) = (said for said in result(*given)["remarks"] if "wheel loads" in said)
+    assert "bogie.wheelset_mass" in remark
+    assert "\nSuspension travel over 1000 m, exact\n" in run(*given)[1]
+    there = result("ride", "--spectral", "--speed", "200", "--travel", "--vehicle", "ice3")
+    assert not any("wheel loads" in said for said in there["remarks"])
+
+
+@pytest.mark.parametrize("spectral", [True, False])
+def test_the_error_of_the_exact_value_is_stated(result, run, spectral):
+    given = [
+        "ride",
+        "--speed",
+        "200",
+        "--segments",
+        "4",
+        "--length",
+        "200",
+        "--at",
+        "0",
+        "--at",
+        "9",
+    ]
+    given += ["--spectral"] if spectral else []
+    coach = derive_vehicle("cati2024", 4)
+    exact = stochastic_ride(coach, 200 / 3.6, spectrum("erri_low"), [0.0, 9.0])
+    stated = [case["a_wrms_error"] for case in result(*given)["cases"]]
+    assert stated == pytest.approx(exact.a_wrms_error.tolist(), rel=1e-9)
+    assert max(stated) < 1e-6
+    assert f"relative error at most {max(stated):.0e}\n" in run(*given)[1]
+    header, *rows = run(*given, "--format", "csv")[1].splitlines()
+    assert float(rows[1].split(",")[header.split(",").index("a_wrms_error")]) == stated[1]
 
 
 def test_rides_are_drawn_into_a_new_folder(result, tmp_path):

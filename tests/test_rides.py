@@ -256,6 +256,12 @@ def test_the_exact_value_stands_beside_the_runs():
         assert case.standard_error == pytest.approx(error, rel=2e-3)  # to a sample of time
 
 
+def test_a_table_has_the_error_of_the_exact_values():
+    result = ride(paper_coach(2), "erri_low", [V], length=200.0)
+    assert result.table()["error of the exact"].tolist() == [result.cases[0].a_wrms_error]
+    assert 0 < result.cases[0].a_wrms_error < 1e-6
+
+
 def test_one_seed_is_repeated_exactly_and_another_differs():
     one, again, other = (
         ride(paper_coach(2), speeds=[V], length=300.0, seed=seed).cases[0].a_wrms

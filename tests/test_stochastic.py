@@ -521,6 +521,16 @@ def test_wheel_load_is_taken_after_a_low_pass_of_20_hz():
     assert narrower < row["rms"]
 
 
+def test_missing_wheel_loads_are_told_where_they_were_expected():
+    vehicle = load_vehicle("cati2024")
+    first = replace(vehicle.bogies[0], wheelset_mass=1500.0)
+    half = derive_vehicle(replace(vehicle, bogies=(first, *vehicle.bogies[1:])), 1)
+    (remark,) = output_statistics(half, 40.0, LOW).attrs["remarks"]
+    assert remark.startswith("no wheel loads of bogie 2: ")
+    assert "bogie.wheelset_mass" in remark
+    assert output_statistics(half, 40.0, LOW, "wheel_load_1").attrs["remarks"] == []
+
+
 def test_the_low_pass_is_butterworths():
     f = np.array([1.0, 20.0, 40.0])
     b, a = scipy.signal.butter(4, 2 * np.pi * 20.0, analog=True)

@@ -65,6 +65,7 @@ class Case:
 
     standard_error : of a_wrms, for a run of this length over this spectrum; of an exact value from
     a measured track alone, for that track's length.
+    a_wrms_error : estimated relative error of the exact value's integration.
     continuous : the 5 s values of EN 12299, of a rated section that holds one.
     body : the car body's kind; segments, modes : how many of them it has, None if it is not made
     of them. record : what is behind the values, None if they come from the spectrum alone.
@@ -86,6 +87,7 @@ class Case:
     continuous: ContinuousComfort | None = None
     record: Record | None = None
     modes: int | None = None
+    a_wrms_error: float | None = None
 
     @property
     def level(self) -> str:
@@ -131,6 +133,7 @@ class RideResult:
                     "a_rms [m/s^2]": case.a_rms,
                     "a_wrms [m/s^2]": case.a_wrms,
                     "a_wrms exact [m/s^2]": case.a_wrms_exact,
+                    "error of the exact": case.a_wrms_error,
                     "standard error [m/s^2]": case.standard_error,
                     "MTVV [m/s^2]": case.mtvv,
                     "MTVV exponential [m/s^2]": case.mtvv_exp,
@@ -315,6 +318,7 @@ def _rate(
                 over_time,
                 Record(run.time, run.distance, run.elevation, acceleration, weighted, rated),
                 model.body.mode_count,
+                None if exact is None else float(exact.a_wrms_error[k]),
             )
         )
     return cases, remarks
@@ -330,7 +334,8 @@ def _exact_cases(
     errors: list[float | None] = [None] * len(exact.positions)
     if isinstance(of, MeasuredSpectrum):
         errors = list(map(float, exact.standard_error(of.effective_length / speed)))
-    values = zip(exact.positions, exact.a_rms, exact.a_wrms, errors, exact.wz, strict=True)
+    values = zip(exact.positions, exact.a_rms, exact.a_wrms, exact.a_wrms_error, errors, exact.wz,
+                 strict=True)  # fmt: skip
     return [
         Case(
             speed,
@@ -343,8 +348,9 @@ def _exact_cases(
             error,
             wz=float(wz),
             modes=count,
+            a_wrms_error=float(integrated),
         )
-        for x, a, a_w, error, wz in values
+        for x, a, a_w, integrated, error, wz in values
     ]
 
 

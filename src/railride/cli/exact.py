@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -35,16 +35,17 @@ class Asked:
 
 @dataclass(frozen=True)
 class Detail:
-    """One more result: its key and rows in JSON, and its table as text."""
+    """One more result: its key and rows in JSON, its table as text, and what to know of it."""
 
     key: str
     rows: list[dict[str, Any]]
     table: str
+    remarks: Sequence[str] = ()
 
 
 def travel(asked: Asked) -> Detail:
     """R.m.s. and expected peak of every deflection and wheel load at every speed."""
-    from railride.stochastic import extremes
+    from railride.stochastic import extremes, missing_loads
 
     rows: list[dict[str, Any]] = [
         {
@@ -55,6 +56,7 @@ def travel(asked: Asked) -> Detail:
             "expected_peak": one.peak,
             "zero_upcrossing_hz": one.crossings,
             "low_pass_hz": one.low_pass,
+            "error": one.error,
             "distance_m": asked.distance,
         }
         for speed in asked.speeds
@@ -70,8 +72,17 @@ def travel(asked: Asked) -> Detail:
     columns = [("speed\n[km/h]", ".6g"), ("output", ""), ("unit", ""), ("r.m.s.", ".3f"),
                ("expected peak\nto one side", ".3f"), ("zero up-\ncrossings [1/s]", ".2f"),
                ("low-pass\n[Hz]", ".4g")]  # fmt: skip
-    title = f"Suspension travel and wheel load over {asked.distance:g} m, exact"
-    return Detail("outputs", rows, output.table_text(title, columns, shown))
+    loads = " and wheel load" if any(row["unit"] == "N" for row in rows) else ""
+    title = f"Suspension travel{loads} over {asked.distance:g} m, exact"
+    table = output.table_text(title, columns, shown) + integrated(row["error"] for row in rows)
+    return Detail("outputs", rows, table, missing_loads(asked.model))
+
+
+def integrated(errors: Iterable[float]) -> str:
+    """A line on the errors of exact values; nothing where there are none."""
+    listed = list(errors)
+    line = "\n  exact: integrated over the spectrum of the track, relative error at most {:.0e}\n"
+    return line.format(max(listed)) if listed else ""
 
 
 def bands(asked: Asked) -> Detail:

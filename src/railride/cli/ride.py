@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
+from railride.cli.exact import integrated
 from railride.cli.options import FORMATS, Arguments, kmh
 from railride.cli.progress import working
 from railride.cli.vehicle import VehicleChoice, takes_vehicle
@@ -145,7 +146,7 @@ def ride(
         )  # fmt: skip
         details = _details(asked, model, source, speeds, places, rated, floor, weighting)
         drawn = None if plots is None else _draw(found, plots)
-    remarks = [*found.remarks, *idle]
+    remarks = [*found.remarks, *idle, *(said for detail in details for said in detail.remarks)]
     if form == "csv":
         remarks += [f"--{name} changes nothing in csv, which holds one table: take json or table"
                     for name in asked]  # fmt: skip
@@ -217,6 +218,7 @@ def _row(case: Case) -> dict[str, Any]:
         "a_rms": case.a_rms,
         "a_wrms": case.a_wrms,
         "a_wrms_exact": case.a_wrms_exact,
+        "a_wrms_error": case.a_wrms_error,
         "standard_error": case.standard_error,
         "mtvv": case.mtvv,
         "mtvv_exp": case.mtvv_exp,
@@ -263,5 +265,6 @@ def _table(result: RideResult) -> str:
         for c in result.cases
         for scale, found in c.levels.items()
     ]
-    values = output.table_text(title, columns, rows)
+    errors = [c.a_wrms_error for c in result.cases if c.a_wrms_error is not None]
+    values = output.table_text(title, columns, rows) + integrated(errors)
     return values + "\n" + output.table_text("Comfort by scale", scales, classes)

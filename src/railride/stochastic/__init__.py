@@ -7,7 +7,13 @@ spectrum of a track that was measured).
 """
 
 from railride.stochastic.bands import third_octaves
-from railride.stochastic.extremes import Extreme, expected_peak, extremes, output_statistics
+from railride.stochastic.extremes import (
+    Extreme,
+    expected_peak,
+    extremes,
+    missing_loads,
+    output_statistics,
+)
 from railride.stochastic.maps import comfort_map
 from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum
 from railride.stochastic.process import BAND_HZ, Gain, Process, process
@@ -25,6 +31,7 @@ __all__ = [
     "expected_peak",
     "extremes",
     "measured_spectrum",
+    "missing_loads",
     "mode_shares",
     "output_statistics",
     "process",

@@ -155,7 +155,8 @@ def output_statistics(
     Returns
     -------
     table : "output", "unit", "rms" and "expected peak" in that unit, "zero up-crossings [1/s]",
-        "low-pass [Hz]" (none where none was used), "error" (of the r.m.s., relative, estimated).
+        "low-pass [Hz]" (none where none was used), "error" (of the r.m.s., relative, estimated);
+        ``table.attrs["remarks"]`` says where wheel loads are missing.
 
     Raises
     ------
@@ -174,7 +175,7 @@ def output_statistics(
 
     found = extremes(model, speed, spectrum, outputs, distance=distance, duration=duration,
                      corner=corner, band=band, **changes)  # fmt: skip
-    return pd.DataFrame(
+    table = pd.DataFrame(
         [
             {
                 "output": one.name,
@@ -188,6 +189,24 @@ def output_statistics(
             for one in found
         ]
     )
+    table.attrs["remarks"] = missing_loads(model) if outputs is None else []
+    return table
+
+
+def missing_loads(model: VehicleModel) -> list[str]:
+    """A remark on the bogies without wheel loads, if there are any, and on what gives them.
+
+    >>> from railride import derive_vehicle, load_vehicle
+    >>> [said.partition(":")[0] for said in missing_loads(derive_vehicle("cati2024", 1))]
+    ['no wheel loads']
+    """
+    bogies = model.vehicle.bogies
+    bare = [str(b) for b, bogie in enumerate(bogies, start=1) if bogie.wheelset_mass is None]
+    if not bare:
+        return []
+    some = "" if len(bare) == len(bogies) else f" of bogie {' and '.join(bare)}"
+    why = "the wheelsets' mass is not known (give bogie.wheelset_mass in the vehicle's file)"
+    return [f"no wheel loads{some}: {why}"]
 
 
 def _duration(speed: float, distance: float | None, duration: float | None) -> float:
