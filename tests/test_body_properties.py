@@ -46,10 +46,10 @@ def lopsided_modes():
                      "modes", products=(motions * weights) @ motions.T)  # fmt: skip
 
 
-def given_modes():
+def given_modes(payload=()):
     found = lopsided_modes()
     vehicle = coach(mass_centre=found.mass_centre, pitch_inertia=found.pitch_inertia)
-    return VehicleModel(vehicle, ModalBody(vehicle.body, found))
+    return VehicleModel(replace(vehicle, payload=payload), ModalBody(vehicle.body, found))
 
 
 TIMOSHENKO = {"shear_stiffness": 4e8, "rotary_inertia": 2800.0}
@@ -73,7 +73,8 @@ BODIES |= {
     "hung": lambda: derive_vehicle(replace(coach(), equipment=HUNG), 4),
     "hung beam": lambda: derive_vehicle(replace(coach(), equipment=HUNG), body="beam", modes=5),
 }
-LOADED = {"loaded", "loaded beam"}
+BODIES["loaded modes"] = lambda: given_modes(LOADS)
+LOADED = {"loaded", "loaded beam", "loaded modes"}
 SYMMETRIC = {"rigid", "rods", "halves", "beam", "shear beam", "one mode"}
 
 
@@ -145,7 +146,7 @@ def test_total_mass_mass_centre_and_inertia_are_right(name):
     uniform = body.mass * body.length**2 / 12
     expected = {
         "shear beam": uniform + 2800.0 * body.length,
-        **dict.fromkeys(("rigid", "graded", "given modes"), body.pitch_inertia),
+        **dict.fromkeys(("rigid", "graded", "given modes", "loaded modes"), body.pitch_inertia),
     }
     assert about == pytest.approx(expected.get(name, uniform), rel=1e-11)
 

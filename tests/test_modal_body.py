@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from railride.bodies import ModalBody, beam_modes
+from railride.bodies import BodyModes, ModalBody, beam_modes
 from railride.errors import InputError
 from railride.modal import modes, undamped_frequencies
-from railride.parameters import load_vehicle
+from railride.parameters import Load, load_vehicle
 from railride.spectra import spectrum
 from railride.stochastic import stochastic_ride
 from railride.vehicle import VehicleModel, derive_vehicle
@@ -122,6 +122,28 @@ def test_what_the_modes_were_made_for_is_not_changed():
     other = replace(vehicle.body, mass=30e3)
     with pytest.raises(InputError, match=r"mass: found 34000 kg; expected 30000 kg"):
         ModalBody(other, beam_modes(vehicle.body, 3))
+
+
+def test_loads_on_shapes_with_kinks_are_integrated_between_them():
+    """A shape of straight lines between -12, -3, 6 and 12 m: its squares are parabolas."""
+    x, y = np.array([-12.0, -3.0, 6.0, 12.0]), np.array([1.5, -1.0, -0.8, 1.6])
+    bent = BodyModes(
+        34e3,
+        0.0,
+        1.632e6,
+        24.0,
+        [9.6],
+        [0.0],
+        lambda at: np.interp(at, x, y)[np.newaxis],
+        "modes",
+        knots=(-3.0, 6.0),
+    )
+    vehicle = replace(coach(), payload=(Load(5000.0, 11.0, -7.0),))
+    M = VehicleModel(vehicle, ModalBody(vehicle.body, bent)).matrices().M
+    ends = np.array([-7.0, -3.0, 6.0, 11.0])
+    f = np.interp(ends, x, y)
+    squares = np.diff(ends) * (f[1:] ** 2 + f[1:] * f[:-1] + f[:-1] ** 2) / 3
+    assert M[2, 2] - 34e3 == pytest.approx(5000 * squares.sum() / 18, rel=1e-12)
 
 
 # Structural damping

@@ -16,7 +16,7 @@ from railride.parameters import CarBody
 KINDS = ("rigid", "segments", "beam")
 MODAL = ("beam",)  # those that are made of modes
 SEGMENTS = 4  # unless the user says otherwise
-MOST_MODES = 200  # of a car body: the highest is then at some 60 kHz
+MOST_MODES = 100  # of a car body: the highest is then at some 40 kHz
 
 
 def body_model(

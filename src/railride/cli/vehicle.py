@@ -21,7 +21,7 @@ BODIES = ("rigid", "segments", "beam")
 MODAL = ("beam",)  # those that are made of modes
 DEFAULT = "cati2024"
 MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
-MOST_MODES = 200  # likewise
+MOST_MODES = 100  # likewise
 
 VehicleOption = Annotated[
     str, typer.Option("--vehicle", metavar="NAME|FILE", rich_help_panel=BODY,
