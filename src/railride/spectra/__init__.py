@@ -1,0 +1,41 @@
+"""Track spectra: how much longitudinal level a track has at each wavenumber.
+
+Symbols: Omega = 2π/wavelength, angular wavenumber (rad/m); n = 1/wavelength, wavenumber (1/m);
+S(Omega), one-sided power spectral density of the level (m²/(rad/m)), so that
+
+    mean square of the level = ∫₀^∞ S(Omega) dOmega.
+
+density (what a spectrum is, in any unit and sidedness) → erri, fra, sncf, china (those that ship,
+one family each) → names (by name) → bands (r.m.s. in a wavelength band, density over frequency).
+
+Sources: as read from published compilations of the ERRI/ORE B176, FRA, SNCF and Chinese spectra;
+each :class:`Spectrum` names its own.
+"""
+
+from railride.spectra.bands import band_rms, coverage_remark, covered_hz, temporal
+from railride.spectra.density import (
+    D1,
+    D2,
+    D3,
+    FloatArray,
+    Spectrum,
+    check_band,
+    check_speed,
+)
+from railride.spectra.names import spectrum, spectrum_names
+
+__all__ = [
+    "D1",
+    "D2",
+    "D3",
+    "FloatArray",
+    "Spectrum",
+    "band_rms",
+    "check_band",
+    "check_speed",
+    "coverage_remark",
+    "covered_hz",
+    "spectrum",
+    "spectrum_names",
+    "temporal",
+]
