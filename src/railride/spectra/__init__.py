@@ -6,7 +6,8 @@ S(Omega), one-sided power spectral density of the level (m²/(rad/m)), so that
     mean square of the level = ∫₀^∞ S(Omega) dOmega.
 
 density (what a spectrum is, in any unit and sidedness) → erri, fra, sncf, china (those that ship,
-one family each) → names (by name) → bands (r.m.s. in a wavelength band, density over frequency).
+one family each) → names (by name) → bands (r.m.s. in a wavelength band, density over frequency) →
+tabulated (a user's own) → fit (which one fits best).
 
 Sources: as read from published compilations of the ERRI/ORE B176, FRA, SNCF and Chinese spectra;
 each :class:`Spectrum` names its own.
@@ -21,13 +22,17 @@ from railride.spectra.density import (
     Spectrum,
     check_band,
     check_speed,
+    unit_doubts,
 )
+from railride.spectra.fit import Fit, fit_spectra
 from railride.spectra.names import spectrum, spectrum_names
+from railride.spectra.tabulated import spectrum_from_table
 
 __all__ = [
     "D1",
     "D2",
     "D3",
+    "Fit",
     "FloatArray",
     "Spectrum",
     "band_rms",
@@ -35,7 +40,10 @@ __all__ = [
     "check_speed",
     "coverage_remark",
     "covered_hz",
+    "fit_spectra",
     "spectrum",
+    "spectrum_from_table",
     "spectrum_names",
     "temporal",
+    "unit_doubts",
 ]

@@ -34,6 +34,8 @@ _UNITS = {
     "mm^2/(1/m)": (1.0 / (2.0 * pi), 1e-6 / (2.0 * pi)),
 }
 _SIDES = {"one-sided": 1.0, "two-sided": 2.0}
+STEEPEST = 0.02  # r.m.s. slope that no railway has: they have about 0.001
+FLATTEST = 1e-5  # m, r.m.s. level that none has
 _EDGE = 1e-12  # a band's edges belong to it, whatever the rounding of 2π/wavelength
 
 
@@ -48,7 +50,7 @@ class Spectrum:
     rational: an integral over Omega has its fine detail near them. They come as ± pairs where the
     expression is rational in Omega² (only then may one integrate by residues).
     ``breakpoints``: wavenumbers (rad/m) between which it is smooth.
-    ``extrapolate``: continue the formula beyond the band.
+    ``extrapolate``: continue the formula beyond the band. ``remarks``: what its user must know.
 
     Raises InputError for an unknown unit or sidedness, a band that is not one, a density that is
     not finite and positive over wavelengths from 0.1 to 1000 m, and a pole that is none.
@@ -63,6 +65,7 @@ class Spectrum:
     poles: tuple[complex, ...] = ()
     breakpoints: tuple[float, ...] = ()
     extrapolate: bool = False
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check the identities that every spectrum must meet."""
@@ -154,3 +157,25 @@ def check_speed(speed: float) -> None:
     """Raise InputError unless ``speed`` (m/s) is finite and above zero."""
     if not (isfinite(speed) and speed > 0.0):
         raise InputError(f"speed: found {speed} m/s; expected a finite speed above zero")
+
+
+def unit_doubts(level: float, slope: float, column: str) -> list[str]:
+    """Remarks on a level that a slip of the unit would explain.
+
+    ``level``: its r.m.s., m; ``slope``: the r.m.s. of its slope, m/m; ``column``: what it was read
+    from.
+
+    >>> unit_doubts(1e-6, 1e-6, "level_mm")
+    ["the r.m.s. level is only 0.001 mm: is the unit of 'level_mm' right?"]
+    """
+    remarks = []
+    if slope > STEEPEST:
+        remarks.append(
+            f"the r.m.s. slope is {slope:.2g}, far above any railway's (about 0.001): is the "
+            f"unit of {column!r} right?"
+        )
+    if 0.0 < level < FLATTEST:
+        remarks.append(
+            f"the r.m.s. level is only {1000 * level:.2g} mm: is the unit of {column!r} right?"
+        )
+    return remarks

@@ -15,7 +15,7 @@ from railride.stochastic.extremes import (
     output_statistics,
 )
 from railride.stochastic.maps import comfort_map
-from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum
+from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum, spectrum_fits
 from railride.stochastic.process import BAND_HZ, Gain, Process, process
 from railride.stochastic.ride import StochasticRide, stochastic_ride, weighted_rms
 from railride.stochastic.shares import mode_shares
@@ -35,6 +35,7 @@ __all__ = [
     "mode_shares",
     "output_statistics",
     "process",
+    "spectrum_fits",
     "stochastic_ride",
     "third_octaves",
     "weighted_rms",

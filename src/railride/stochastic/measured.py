@@ -16,15 +16,20 @@ Source: P.D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.spectra import Spectrum
+from railride.spectra import Spectrum, fit_spectra
 from railride.track import RESOLVED_SAMPLES, Track
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SHORTEST, LONGEST = 200.0, 1000.0  # m, of a segment, where the track's length lets one choose
 _FIRST_LINE = 2  # below it the window and the straight line taken out decide
@@ -120,3 +125,42 @@ def _even_samples(samples: int, hop: int, segments: int) -> float:
     for start in range(0, hop * segments, hop):
         u[start : start + samples] += square
     return float(u.sum() ** 2 / (u**2).sum())
+
+
+def spectrum_fits(
+    track: Track | Spectrum, candidates: Sequence[str | Spectrum] | None = None
+) -> pd.DataFrame:
+    """How well the standard spectra fit a track's own, by third octaves: the best first.
+
+    Parameters
+    ----------
+    track : measured or made, its spectrum by :func:`measured_spectrum`; or a spectrum itself.
+    candidates : spectra or their names; default all that ship.
+
+    Returns
+    -------
+    table : "spectrum"; "misfit [dB]", the r.m.s. difference of the third-octave levels; "level
+        ratio", of the track's r.m.s. level to the spectrum's; "from [m]", "to [m]", the wavelengths
+        compared, which both hold; "third octaves", how many those are. See
+        :mod:`railride.spectra.fit`.
+
+    Raises
+    ------
+    InputError : as :func:`measured_spectrum`.
+
+    Examples
+    --------
+    >>> from railride import synthesise
+    >>> table = spectrum_fits(synthesise("sncf_good", 5000.0, 0.25, seed=1))
+    >>> table["spectrum"][0], round(float(table["misfit [dB]"][0]), 1)
+    ('sncf_good', 0.4)
+    """
+    import pandas as pd
+
+    found = track if isinstance(track, Spectrum) else measured_spectrum(track)
+    rows = [
+        (fit.spectrum.name, fit.misfit_db, fit.level_ratio, *fit.wavelengths, fit.bands)
+        for fit in fit_spectra(found, candidates)
+    ]
+    columns = ["spectrum", "misfit [dB]", "level ratio", "from [m]", "to [m]", "third octaves"]
+    return pd.DataFrame(rows, columns=columns)
