@@ -182,6 +182,27 @@ def comfort(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
+def synthesise(step: Callable[[], None]) -> dict[str, Any]:
+    """1,000 km of track at 0.25 m: 4,000,001 samples, and the next prime number of them."""
+    found = worker("synthesise")
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "synthesise",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="railride.synthesise of 1,000 km at 0.25 m from erri_low, wall time",
+        peer="numpy.fft.irfft of as many normal numbers: that transform alone, wall time",
+        samples=found["samples"],
+        prime_samples=found["prime_samples"],
+        targets=[
+            at_most("time, s", own, 3),
+            at_most("time for a prime number of samples, s", median(found["prime"]), 3),
+        ],
+    )
+
+
 DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
 
 CASES: dict[str, tuple[Case, int]] = {
@@ -192,6 +213,7 @@ CASES: dict[str, tuple[Case, int]] = {
     "derive-growth": (derive_growth, GROWTH_ROUNDS),
     "frequency": (frequency, 1),
     "comfort": (comfort, 1),
+    "synthesise": (synthesise, 1),
 }
 """Name to the case and the number of its steps."""
 

@@ -325,12 +325,41 @@ def _largest_difference(model: Any, linear: Any) -> float:
     return max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs)
 
 
+def synthesise(rounds: int = 5) -> dict[str, Any]:
+    """`railride.synthesise` of 1,000 km, and of a prime number of samples, the worst for an FFT."""
+    import numpy as np
+
+    from railride.track import synthesise
+
+    step, prime = 0.25, 4_000_037
+    own_times, prime_times, peer_times, samples = [], [], [], 0
+    for seed in range(rounds):
+        own_time, own = timed(lambda seed=seed: synthesise("erri_low", 1e6, step, seed))
+        prime_time, _ = timed(
+            lambda seed=seed: synthesise("erri_low", (prime - 1) * step, step, seed)
+        )
+        samples = own.level.size
+        normal = np.random.RandomState(seed).standard_normal(samples + 1).view(np.complex128)
+        peer_time, _ = timed(lambda c=normal, n=samples: np.fft.irfft(c, n))
+        own_times.append(own_time)
+        prime_times.append(prime_time)
+        peer_times.append(peer_time)
+    return {
+        "own": own_times,
+        "prime": prime_times,
+        "peer": peer_times,
+        "samples": samples,
+        "prime_samples": prime,
+    }
+
+
 WORKERS = {
     "ride": ride,
     "a_wrms": a_wrms,
     "frequency": frequency,
     "comfort": comfort,
     "comfort-peer": comfort_peer,
+    "synthesise": synthesise,
     "derive-railride": derive_railride,
     "derive-sympy": derive_sympy,
 }

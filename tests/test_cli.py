@@ -332,7 +332,8 @@ def test_rides_are_drawn_into_a_new_folder(result, tmp_path):
 def test_a_track_is_described(result):
     made = result("track", "--spectrum", "erri_high", "--length", "2000", "--seed", "7")
     assert (made["length_m"], made["step_m"]) == (2000, 0.25)
-    assert set(made) == {"length_m", "step_m", "rms_mm", "d1_rms_mm", "d2_rms_mm", "remarks"}
+    keys = {"length_m", "step_m", "rms_mm", "d1_rms_mm", "d2_rms_mm", "remarks"}
+    assert set(made) == keys | {"best_spectrum", "spectra"}
     assert made["d1_rms_mm"] < made["d2_rms_mm"] < made["rms_mm"]
     again = result("track", "--spectrum", "erri_high", "--length", "2000", "--seed", "7")
     assert again == made

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,7 +13,7 @@ from railride.cli.options import FORMATS, Arguments
 from railride.errors import InputError
 
 if TYPE_CHECKING:
-    from railride.spectra import Spectrum
+    from railride.spectra import Fit, Spectrum
     from railride.track import Track
 
 MAKE = "A synthetic track"
@@ -88,14 +89,18 @@ def track(
     from railride.trackfile import track_text
 
     described, remarks = _described(found)
-    text = output.result(form, described, (), lambda: _table(found, source, described), remarks) \
-        if form != "csv" else track_text(found)  # fmt: skip
+    fits, said = _fits(found)
+    remarks += said
+    text = track_text(found) if form == "csv" else output.result(
+        form, {**described, **_fitted(fits)}, (),
+        lambda: _table(found, source, described) + _fit_table(fits), remarks,
+    )  # fmt: skip
     if write is not None:
         output.write(track_text(found), write)
     if plot is not None:
         from railride import plots
 
-        plots.save(plots.plot_track_overview(found, source), plot)
+        plots.save(plots.plot_track_overview(found, source, fits=fits), plot)
     output.write(text, to)
     output.remark(remarks)
 
@@ -140,6 +145,52 @@ def _described(found: Track) -> tuple[dict[str, Any], list[str]]:
                 f"not resolve wavelengths of {low:g} to {high:g} m: no value for them"
             )
     return rows, remarks
+
+
+def _fits(found: Track) -> tuple[tuple[Fit, ...], list[str]]:
+    """How the standard spectra fit the track's own, and what to say of that."""
+    from railride.spectra import fit_spectra
+    from railride.stochastic import measured_spectrum
+    from railride.stochastic.measured import FEW
+
+    if found.rms() == 0.0:
+        return (), [f"{found.name} is level: no spectrum fits it"]
+    try:
+        own = measured_spectrum(found)
+    except InputError as fault:
+        return (), [f"no spectrum to compare: {fault}"]
+    rests_on = f"{own.segments} segments of {own.segment:.6g} m only: indicative"
+    few = f"{found.name}: the spectra were fitted to {rests_on}"
+    return fit_spectra(own), [few] if own.segments < FEW else []
+
+
+def _fitted(fits: Sequence[Fit]) -> dict[str, Any]:
+    """The fits under their keys in JSON."""
+    rows = [
+        {"spectrum": fit.spectrum.name, "misfit_db": fit.misfit_db, "level_ratio": fit.level_ratio,
+         "wavelengths_m": fit.wavelengths, "third_octaves": fit.bands}
+        for fit in fits
+    ]  # fmt: skip
+    return {"best_spectrum": rows[0]["spectrum"] if rows else None, "spectra": rows}
+
+
+def _fit_table(fits: Sequence[Fit]) -> str:
+    """The fits as a table, or nothing."""
+    if not fits:
+        return ""
+    columns = [("spectrum", ""), ("misfit\n[dB]", ".2f"), ("level\nratio", ".3f"),
+               ("wavelengths\n[m]", ">")]  # fmt: skip
+    rows = [
+        (
+            fit.spectrum.name,
+            fit.misfit_db,
+            fit.level_ratio,
+            "{:.3g}-{:.3g}".format(*fit.wavelengths),
+        )
+        for fit in fits
+    ]
+    title = "Standard spectra beside the track's own in third octaves, the best fit first"
+    return "\n" + output.table_text(title, columns, rows)
 
 
 def _table(found: Track, source: Spectrum | None, rows: dict[str, Any]) -> str:

@@ -115,9 +115,10 @@ def _marked(spectrum: Spectrum | None, fits: Sequence[Fit]) -> tuple[Spectrum | 
 def _draw_families(ax: Axes, spectra: Sequence[Spectrum], limits: tuple[float, float]) -> None:
     """Spectra as thin lines, one colour and one entry in the legend for each family."""
     for family, (label, colour) in _FAMILIES.items():
-        for one in (one for one in spectra if one.name.partition("_")[0] == family):
-            ax.plot(*_inside(one, *limits), color=colour, linewidth=0.7, zorder=1.5, label=label)
-            label = ""
+        drawn = [_inside(s, *limits) for s in spectra if s.name.partition("_")[0] == family]
+        for number, (wavenumber, density) in enumerate(drawn):
+            ax.plot(wavenumber, density, color=colour, linewidth=0.7, zorder=1.5,
+                    label="" if number else label)  # fmt: skip
 
 
 def _inside(spectrum: Spectrum, lowest: float, highest: float) -> tuple[FloatArray, FloatArray]:
