@@ -20,7 +20,7 @@ from railride.errors import Faults, InputError
 from railride.numeric import Array
 from railride.quantities import several
 from railride.scales import levels, paper_level, scale_remarks
-from railride.spectra import Spectrum, check_speed, coverage_remark, spectrum
+from railride.spectra import Spectrum, check_speed, coverage_remark
 from railride.stochastic import (
     BAND_HZ,
     MeasuredSpectrum,
@@ -30,7 +30,7 @@ from railride.stochastic import (
 )
 from railride.timerun import LONGEST_RUN_IN, Run, time_run
 from railride.track import Track, recommended_step, resolved_band_hz, synthesise
-from railride.trackfile import read_track
+from railride.trackfile import load_track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -229,20 +229,6 @@ def ride(
     )
 
 
-def load_track(track: str | Path | Spectrum | Track) -> Spectrum | Track:
-    """A spectrum by its name or a measured track by its file; what is one already, as it is.
-
-    Raises
-    ------
-    InputError : a name that is no spectrum's; a file that cannot be used.
-    """
-    if isinstance(track, Spectrum | Track):
-        return track
-    path = Path(track)
-    is_file = isinstance(track, Path) or path.exists() or path.suffix or len(path.parts) > 1
-    return read_track(path) if is_file else spectrum(str(track))
-
-
 def exact_spectrum(
     source: Spectrum | Track, *, needed: bool = True
 ) -> tuple[Spectrum | None, list[str]]:
@@ -256,7 +242,7 @@ def exact_spectrum(
     InputError : a measured track from which no spectrum can be estimated, where it is needed.
     """
     if isinstance(source, Spectrum):
-        return source, []
+        return source, list(source.remarks)
     try:
         found = measured_spectrum(source)
     except InputError as fault:

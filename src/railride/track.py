@@ -168,6 +168,33 @@ class Track:
             remarks=(*self.remarks, remark),
         )
 
+    def reversed(self) -> Track:
+        """The same track run from its end to its start: w(−x), from −x_n−1 to −x_0.
+
+        Every sample keeps its distance but for the sign: twice reversed it is itself again.
+
+        Raises InputError for a track with a lead-in, which can only be run one way.
+
+        >>> back = Track(10.0, 0.5, np.array([0.0, 0.001, 0.003, 0.002])).reversed()
+        >>> back.distance.tolist(), back.level.tolist()
+        ([-11.5, -11.0, -10.5, -10.0], [0.002, 0.003, 0.001, 0.0])
+        """
+        if self.lead_in:
+            raise InputError(
+                f"track {self.name}: found a taper put before it; expected a track without "
+                "(reverse it first)"
+            )
+        remark = (
+            f"{self.name} is run from its end at {self.end:.10g} m to its start at "
+            f"{self.distance0:.10g} m; distances have a minus sign"
+        )
+        return replace(
+            self,
+            distance0=-self.end,
+            level=self.level[::-1],
+            remarks=(*self.remarks, remark),
+        )
+
     def rms(self) -> float:
         """R.m.s. of the level about its mean, m (the datum of a level is arbitrary)."""
         return float(np.std(self.level))
@@ -331,6 +358,7 @@ def synthesise(source: str | Spectrum, length: float, step: float, seed: int) ->
         name=spectrum.name,
         source=f"{spectrum.source}; seed {seed}" + (", extrapolated" * spectrum.extrapolate),
         band=spectrum.active_band,
+        remarks=spectrum.remarks,
     )
 
 

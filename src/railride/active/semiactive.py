@@ -30,11 +30,12 @@ from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
 from railride.quantities import check_number
 from railride.response import first_order_hold, simulate
-from railride.rides import RATE, load_track, ridden_track
+from railride.rides import RATE, ridden_track
 from railride.spectra import Spectrum, check_speed
 from railride.statespace import system_arrays
 from railride.timerun import run_in_time, with_run_in
 from railride.track import Track
+from railride.trackfile import load_track
 from railride.vehicle import Output, VehicleModel
 from railride.weightings import weighting
 

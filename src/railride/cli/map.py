@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
+from railride.cli.grouped import grouped
 from railride.cli.options import FORMATS, Arguments
 from railride.cli.progress import working
-from railride.cli.vehicle import VehicleChoice, takes_vehicle
+from railride.cli.reading import FileReading, chosen_track
+from railride.cli.vehicle import VehicleChoice
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,9 +25,10 @@ COLUMNS = {"speed_kmh": "speed [km/h]", "position_m": "position [m]", "a_rms": "
 
 
 @output.exits_cleanly
-@takes_vehicle
+@grouped(reading=FileReading, choice=VehicleChoice)
 def comfort_map(
     choice: VehicleChoice,
+    reading: FileReading,
     speed: Annotated[
         list[str] | None,
         typer.Option(
@@ -90,11 +93,12 @@ def comfort_map(
     given.separate(
         {"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track}
     )
+    how = reading.of(given, track)
     with working("mapping") as advance:
         model = choice.model(given)
         from railride import rides, stochastic, weightings
 
-        source, said = rides.exact_spectrum(options.chosen_track(track, extrapolate))
+        source, said = rides.exact_spectrum(chosen_track(track, extrapolate, how))
         if source is None:  # not with what is needed
             return
         found = stochastic.comfort_map(

@@ -12,8 +12,7 @@ import typer
 from railride.errors import Faults
 
 if TYPE_CHECKING:
-    from railride.spectra import Spectrum
-    from railride.track import Track
+    pass
 
 FORMATS = ("table", "json", "csv")
 LARGEST_SEED = 2**32 - 1
@@ -125,15 +124,6 @@ class Arguments:
     def check(self) -> None:
         """Raise what was wrong, if anything."""
         self.faults.raise_if_any()
-
-
-def chosen_track(track: str, extrapolate: bool) -> Spectrum | Track:
-    """The track by its name or file; a spectrum continued beyond its band where that is asked."""
-    from railride.rides import load_track
-    from railride.spectra import Spectrum
-
-    source = load_track(track)
-    return source.extrapolated() if extrapolate and isinstance(source, Spectrum) else source
 
 
 def kmh(speed: float) -> float:

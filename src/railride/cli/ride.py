@@ -9,9 +9,11 @@ import typer
 
 from railride.cli import options, output
 from railride.cli.exact import integrated
+from railride.cli.grouped import grouped
 from railride.cli.options import FORMATS, Arguments, kmh
 from railride.cli.progress import working
-from railride.cli.vehicle import VehicleChoice, takes_vehicle
+from railride.cli.reading import FileReading, chosen_track
+from railride.cli.vehicle import VehicleChoice
 
 if TYPE_CHECKING:
     from railride.cli.exact import Detail
@@ -24,9 +26,10 @@ RIDE = "The ride"
 
 
 @output.exits_cleanly
-@takes_vehicle
+@grouped(reading=FileReading, choice=VehicleChoice)
 def ride(
     choice: VehicleChoice,
+    reading: FileReading,
     speed: Annotated[
         list[str] | None,
         typer.Option(
@@ -132,11 +135,12 @@ def ride(
     output.check_output(given.faults, "--output", to)
     output.check_folder(given.faults, "--plots", plots)
     given.separate({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
+    how = reading.of(given, track)
     with working("riding") as advance:
         model = choice.model(given)
         from railride import rides
 
-        source = options.chosen_track(track, extrapolate)
+        source = chosen_track(track, extrapolate, how)
         idle = _idle(source, spectral, {"--length": length, "--seed": seed}, extrapolate,
                      travel)  # fmt: skip
         found = rides.ride(

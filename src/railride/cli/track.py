@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from railride.cli import options, output
+from railride.cli.grouped import grouped
 from railride.cli.options import FORMATS, Arguments
+from railride.cli.reading import Reading
 from railride.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,23 +22,30 @@ MAKE = "A synthetic track"
 
 
 @output.exits_cleanly
+@grouped(reading=Reading)
 def track(
+    reading: Reading,
     file: Annotated[
         str | None, typer.Argument(metavar="[FILE]", help="A measured track to read and describe.")
     ] = None,
     spectrum: Annotated[
         str | None,
         typer.Option(
-            metavar="NAME",
+            metavar="NAME|FILE",
             rich_help_panel=MAKE,
-            help="Make a track from this spectrum; default erri_low.",
+            help="Make a track from this spectrum, by name or from a file; default erri_low.",
         ),
     ] = None,
     length: Annotated[
         str | None, typer.Option(metavar="M", rich_help_panel=MAKE, help="Default 1000.")
     ] = None,
     step: Annotated[
-        str | None, typer.Option(metavar="M", rich_help_panel=MAKE, help="Default 0.25.")
+        str | None,
+        typer.Option(
+            metavar="M",
+            rich_help_panel=MAKE,
+            help="Default 0.25. Of a file: from row to row, in place of its distances.",
+        ),
     ] = None,
     seed: Annotated[
         str | None, typer.Option(metavar="INT", rich_help_panel=MAKE, help="Default 1.")
@@ -69,21 +78,23 @@ def track(
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    making = {"--spectrum": spectrum, "--length": length, "--step": step, "--seed": seed,
+    making = {"--spectrum": spectrum, "--length": length, "--seed": seed,
               "--extrapolate": "" if extrapolate else None}  # fmt: skip
     if file is not None:
         for option in (option for option, value in making.items() if value is not None):
             given.conflict(option, f"the file {file!r}")
-    metres, step_m = given.positive("--length", length, "m"), given.positive("--step", step, "m")
+    elif reading.options():
+        given.conflict(reading.options()[0], "no file", "name the file of a measured track")
+    metres, how = given.positive("--length", length, "m"), reading.arguments(given, step)
     number = given.whole("--seed", seed, 0, options.LARGEST_SEED)
     written = {"--output": to, "--write": write, "--plot": plot}
     for option, path in written.items():
         output.check_output(given.faults, option, path)
-    given.separate(written, {"the track": file})
+    given.separate(written, {"the track": file, "--spectrum": spectrum})
     output.check_picture(given.faults, "--plot", plot)
     given.check()
-    source, found = _read(file) if file is not None else _make(
-        spectrum or "erri_low", extrapolate, metres or 1000.0, step_m or 0.25,
+    source, found = _read(file, how) if file is not None else _make(
+        spectrum or "erri_low", extrapolate, metres or 1000.0, how.get("step", 0.25),
         1 if number is None else number,
     )  # fmt: skip
     from railride.trackfile import track_text
@@ -116,14 +127,14 @@ def _make(
     return source, synthesise(source, length, step, seed)
 
 
-def _read(file: str) -> tuple[Spectrum | None, Track]:
+def _read(file: str, how: dict[str, Any]) -> tuple[Spectrum | None, Track]:
     from railride.spectra import spectrum_names
     from railride.trackfile import read_track
 
     if file in spectrum_names() and not Path(file).exists():
-        raise InputError(f"track file {file!r}: found no such file; expected a CSV file (to make a "
+        raise InputError(f"track file {file!r}: found no such file; expected one (to make a "
                          f"track from that spectrum, --spectrum {file})")  # fmt: skip
-    return None, read_track(file)
+    return None, read_track(file, **how)
 
 
 def _described(found: Track) -> tuple[dict[str, Any], list[str]]:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import functools
-import inspect
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from railride.cli.grouped import grouped
 from railride.cli.options import BODY, Arguments
 from railride.errors import InputError
 
@@ -116,20 +114,8 @@ class VehicleChoice:
                              "such as --body beam")  # fmt: skip
 
 
-def takes_vehicle(command: Callable[..., None]) -> Callable[..., None]:
-    """A command whose argument ``choice`` is made of the vehicle's options, listed last but one."""
-    own, chosen = (inspect.signature(f, eval_str=True) for f in (command, VehicleChoice))
-
-    @functools.wraps(command)
-    def run(**values: Any) -> None:
-        command(choice=VehicleChoice(**{name: values.pop(name) for name in chosen.parameters}),
-                **values)  # fmt: skip
-
-    shown = [p for name, p in own.parameters.items() if name != "choice"]
-    shown[-2:-2] = chosen.parameters.values()
-    setattr(run, "__signature__", own.replace(parameters=shown))  # noqa: B010
-    run.__annotations__ = {p.name: p.annotation for p in shown}
-    return run
+takes_vehicle = grouped(choice=VehicleChoice)
+"""A command whose argument ``choice`` is made of the vehicle's options."""
 
 
 def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:

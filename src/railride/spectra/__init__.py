@@ -6,8 +6,8 @@ S(Omega), one-sided power spectral density of the level (m²/(rad/m)), so that
     mean square of the level = ∫₀^∞ S(Omega) dOmega.
 
 density (what a spectrum is, in any unit and sidedness) → erri, fra, sncf, china (those that ship,
-one family each) → names (by name) → bands (r.m.s. in a wavelength band, density over frequency) →
-tabulated (a user's own) → fit (which one fits best).
+one family each) → bands (r.m.s. in a wavelength band, density over frequency) → tabulated, file (a
+user's own) → names (by name) → fit (which one fits best).
 
 Sources: as read from published compilations of the ERRI/ORE B176, FRA, SNCF and Chinese spectra;
 each :class:`Spectrum` names its own.
@@ -24,8 +24,9 @@ from railride.spectra.density import (
     check_speed,
     unit_doubts,
 )
+from railride.spectra.file import holds_spectrum, read_spectrum, spectrum_of
 from railride.spectra.fit import Fit, fit_spectra
-from railride.spectra.names import spectrum, spectrum_names
+from railride.spectra.names import is_file, spectrum, spectrum_names
 from railride.spectra.tabulated import spectrum_from_table
 
 __all__ = [
@@ -41,9 +42,13 @@ __all__ = [
     "coverage_remark",
     "covered_hz",
     "fit_spectra",
+    "holds_spectrum",
+    "is_file",
+    "read_spectrum",
     "spectrum",
     "spectrum_from_table",
     "spectrum_names",
+    "spectrum_of",
     "temporal",
     "unit_doubts",
 ]

@@ -11,7 +11,7 @@ two wavenumbers it is one, whichever the abscissa is: S(Omega) = S(n)/2π.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import log, pi
 
@@ -82,14 +82,15 @@ def spectrum_from_table(
 
 
 def tabulated(
-    points: Points, sidedness: str | None, name: str, source: str, faults: Faults, place: Place
-) -> Spectrum:
+    points: Points, sidedness: str | None, name: str, source: str, faults: Faults, place: Place,
+    said: Sequence[str] = (),
+) -> Spectrum:  # fmt: skip
     """Make the spectrum of a table whose columns are of one length, or raise all its ``faults``.
 
-    ``place`` says where a point stands in what the user gave; the rest is as in
-    :func:`spectrum_from_table`.
+    ``place`` says where a point stands in what the user gave, ``said`` what there is to remark
+    already; the rest is as in :func:`spectrum_from_table`.
     """
-    remarks = []
+    remarks = list(said)
     kind, scale = _kind(points.abscissa_unit, faults), _per_radian(points, faults)
     if kind != "m" and points.abscissa.size and points.abscissa[0] == 0.0:
         remarks.append(f"{place(0, 'abscissa')}: wavenumber 0 has no wavelength and is left out")
