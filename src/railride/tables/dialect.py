@@ -118,7 +118,7 @@ class _Layout:
     def dialect(self, head: list[Line], comments: Sequence[Line], faults: Faults) -> Dialect:
         """Find the header among the lines before the first row of numbers."""
         split = [(row, _cells_or_none(text, self.separator) or [text]) for row, text in head]
-        first = next((k for k, (_, cells) in enumerate(split) if self._is_data(cells)), len(split))
+        first = self._first_data([cells for _, cells in split])
         if first == len(split):
             faults.add(f"row {head[0][0]} and below", "no row of numbers", "a table of numbers")
             faults.raise_if_any()
@@ -136,6 +136,30 @@ class _Layout:
         start = last + 1 + bool(units)
         headings = self._headings(split[last][1])
         return self._made(headings, units, split[last][0], split[start][0])
+
+    def _first_data(self, lines: Sequence[list[str]]) -> int:
+        """Place of the first row; one beyond the last line where there is none.
+
+        Half a row, such as "Line; 4", is metadata where a header comes before the first whole row.
+        """
+        data = [k for k, cells in enumerate(lines) if self._is_data(cells)]
+        whole = next((k for k in data if self._is_whole(lines[k])), 0)
+        heads = [k for k in range(whole) if k not in data and self._is_header(lines[k])]
+        return next((k for k in data if not heads or k > heads[-1]), len(lines))
+
+    def _is_whole(self, cells: list[str]) -> bool:
+        """Whether a row has a number, or says that there is none, in every column of numbers."""
+        return len(cells) >= self.width and all(
+            _is(self.number, cells[j]) or is_missing(cells[j]) for j in self.numeric
+        )
+
+    def _is_header(self, cells: list[str]) -> bool:
+        """Whether a line has a text in every column of numbers."""
+        return self._fits(cells) and not any(
+            _is(self.number, cells[j]) or is_missing(cells[j])
+            for j in self.numeric
+            if j < len(cells)
+        )
 
     def _made(
         self, headings: Sequence[str], units: tuple[str, ...], header_row: int, first_row: int

@@ -154,6 +154,7 @@ class NumberTable:
     remarks: what the user must know about how the file was read.
     rows: line of each row in a text file as an editor counts (n,); None where the rows are records
         of their own, counted from 1.
+    header_row: line of the header in a text file; 0 where there is none.
     """
 
     source: str
@@ -161,6 +162,7 @@ class NumberTable:
     rate: float | None = None
     remarks: tuple[str, ...] = ()
     rows: NDArray[np.int64] | None = None
+    header_row: int = 0
 
     @property
     def n(self) -> int:

@@ -68,6 +68,7 @@ def read_text(path: Path) -> NumberTable:
         tuple(_column(body, j, columns[j]) for j in range(width)),
         remarks=tuple(remarks),
         rows=body.lines.row,
+        header_row=dialect.header_row,
     )
 
 
