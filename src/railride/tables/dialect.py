@@ -83,6 +83,9 @@ def find_dialect(head: Sequence[Line], spread: Sequence[Line], comments: Sequenc
     texts = [text for _, text in (*head, *spread)]
     separator = max(_SEPARATORS, key=lambda s: _score(texts, s))
     rows = [_cells_or_none(text, separator) for text in texts]
+    if not any(rows):
+        faults.add(f"row {head[0][0]}", UNCLOSED, "pairs of quotes", "mend that row")
+        faults.raise_if_any()
     comma = _decimal_comma([cells for cells in rows if cells])
     width = Counter(len(cells) for cells in rows if cells).most_common(1)[0][0]
     whole = [cells for cells in rows if cells and len(cells) == width]

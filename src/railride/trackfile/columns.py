@@ -9,10 +9,10 @@ from math import isfinite
 
 from railride.errors import Faults, InputError
 from railride.tables import Column, NumberTable
+from railride.trackfile.cells import is_km_and_m
 from railride.trackfile.headings import meaning
 from railride.units import QuantityError, same_dimension, to_si
 
-KM_AND_M = "km+m"
 EXPECTED_HEADER = "a header line with distance_m and level_m, or another unit, as in level [mm]"
 UNITS = "m, km, cm, mm"
 _DEFAULT_BAND = "D1"
@@ -182,19 +182,6 @@ def head(table: NumberTable) -> str:
     return f"row {table.header_row}" if table.header_row else "columns"
 
 
-def is_number(cell: str) -> bool:
-    """Whether a cell is a number by Python's rules (1_000 is none), NaN and infinity too.
-
-    >>> is_number("1e999"), is_number("nan"), is_number("inv"), is_number("1_0")
-    (True, True, False, False)
-    """
-    try:
-        float(cell.replace("_", "x"))
-    except ValueError:
-        return False
-    return True
-
-
 def _report_several(table: NumberTable, found: Sequence[Column], role: str, faults: Faults) -> None:
     """Note columns of which only one, or a left and a right one, can be meant."""
     shown = " and ".join(repr(c.heading) for c in found[:4])
@@ -234,7 +221,7 @@ def _metres(
 ) -> float:
     """How many metres a column's unit is; 1 for kilometres and metres, which are texts."""
     unit = given or column.unit
-    if role == "distance" and unit.replace(" ", "") == KM_AND_M:
+    if role == "distance" and is_km_and_m(column):
         return 1.0
     try:
         if unit and same_dimension(unit, "m"):

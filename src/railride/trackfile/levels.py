@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from railride.errors import Faults, RowFaults
 from railride.spectra import FloatArray, unit_doubts
 from railride.tables import Column, NumberTable, is_missing
-from railride.trackfile.columns import is_number
+from railride.trackfile.cells import is_number
 
 _LEAST_ZEROS = 4  # rows
 _SPIKE, _LEAST_SPIKE = 12.0, 5e-4  # times the usual second difference; m

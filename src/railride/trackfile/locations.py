@@ -9,7 +9,6 @@ which a remark says; any other step that is none is left for :mod:`railride.trac
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,9 +16,8 @@ import numpy as np
 from railride.errors import RowFaults
 from railride.spectra import FloatArray
 from railride.tables import Column, NumberTable
-from railride.trackfile.columns import KM_AND_M, is_number
+from railride.trackfile.cells import is_km_and_m, is_number, kilometre_and_metre
 
-_PLACE = re.compile(r"(?:km)?\s*(\d{1,4})\s*\+\s*(\d{1,5}(?:[.,]\d*)?)(?:\s*m)?", re.IGNORECASE)
 _LONGEST_RESET = 10.0  # m, by which a location goes back where a counter was set right
 _LONGEST_KILOMETRE = 100.0  # m, by which a kilometre is longer or shorter than 1000 m
 _SHOWN = 3
@@ -50,21 +48,13 @@ def locations(table: NumberTable, column: Column, metres: float, bad: RowFaults)
         return Locations(np.asarray(column.numbers * metres, dtype=np.float64), metres)
     kilometre, metre = np.full(table.n, np.nan), np.full(table.n, np.nan)
     for i, cell in enumerate(column.cells):
-        match = _PLACE.fullmatch(cell.strip())
-        if match:
-            kilometre[i], metre[i] = float(match[1]), float(match[2].replace(",", "."))
+        found = kilometre_and_metre(cell)
+        if found is not None:
+            kilometre[i], metre[i] = found
         else:
             bad.add(table.row(i), column.heading, column.shown(i),
                     "kilometre and metre, as in 130+0100.25")  # fmt: skip
     return _counted_on(table, column, kilometre, metre)
-
-
-def is_km_and_m(column: Column) -> bool:
-    """Whether a column's cells are kilometre and metre: by its unit, or by most of the first."""
-    if column.unit.replace(" ", "") == KM_AND_M:
-        return True
-    first = column.cells[:20] if len(column.bad) else ()
-    return 2 * sum(bool(_PLACE.fullmatch(cell.strip())) for cell in first) > len(first)
 
 
 def _counted_on(

@@ -109,7 +109,7 @@ def _track(table: NumberTable, asked: Asked) -> Track:
     check_departure(table, chosen.levels[0], level, faults)
     step, even, said = asked.step, level, []
     if step is None:
-        step, even, said = on_even_grid(spacing.distance, level)
+        step, even, said = on_even_grid(table, spacing.distance, level)
     remarks += [*said, *doubts(table, chosen.levels[0], level, step), *_on_band(chosen)]
     name = Path(table.source).name
     found = Track(

@@ -89,7 +89,9 @@ def _report(
     bad.add(table.row(i + 1), column.heading, said, as_elsewhere, mend)
 
 
-def on_even_grid(distance: FloatArray, level: FloatArray) -> tuple[float, FloatArray, list[str]]:
+def on_even_grid(
+    table: NumberTable, distance: FloatArray, level: FloatArray
+) -> tuple[float, FloatArray, list[str]]:
     """Step (m) and levels of the even grid that the distances are, or are resampled to.
 
     What lies within 2 % of a step of an even grid, or within the last printed digit, counts as
@@ -110,12 +112,13 @@ def on_even_grid(distance: FloatArray, level: FloatArray) -> tuple[float, FloatA
     from scipy.interpolate import make_interp_spline
 
     spline = make_interp_spline((distance - distance[0]) / mean, level, k=5)
-    low, high = np.min(np.diff(distance)), np.max(np.diff(distance))
-    return (
-        mean,
-        np.asarray(spline(places)),
-        [f"uneven steps of {low:.4g} to {high:.4g} m were resampled to {mean:.6g} m by a spline"],
+    steps = np.diff(distance)
+    rows = [table.row(int(place) + 1) for place in (np.argmin(steps), np.argmax(steps))]
+    remark = (
+        f"uneven steps of {np.min(steps):.4g} to {np.max(steps):.4g} m (before rows {rows[0]} and "
+        f"{rows[1]}) were resampled to {mean:.6g} m by a spline"
     )
+    return mean, np.asarray(spline(places)), [remark]
 
 
 def _printed_digit(distance: FloatArray) -> float:
