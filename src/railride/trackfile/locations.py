@@ -46,14 +46,11 @@ def locations(table: NumberTable, column: Column, metres: float, bad: RowFaults)
                     "a finite number" if is_number(column.cells[i]) else "a number",
                     "" if column.cells[i] else "fill it, or cut the record there")  # fmt: skip
         return Locations(np.asarray(column.numbers * metres, dtype=np.float64), metres)
-    kilometre, metre = np.full(table.n, np.nan), np.full(table.n, np.nan)
-    for i, cell in enumerate(column.cells):
-        found = kilometre_and_metre(cell)
-        if found is not None:
-            kilometre[i], metre[i] = found
-        else:
-            bad.add(table.row(i), column.heading, column.shown(i),
-                    "kilometre and metre, as in 130+0100.25")  # fmt: skip
+    found = [kilometre_and_metre(cell) for cell in column.cells]
+    for i in [i for i, pair in enumerate(found) if pair is None]:
+        bad.add(table.row(i), column.heading, column.shown(i),
+                "kilometre and metre, as in 130+0100.25")  # fmt: skip
+    kilometre, metre = np.array([pair or (np.nan, np.nan) for pair in found]).T
     return _counted_on(table, column, kilometre, metre)
 
 
