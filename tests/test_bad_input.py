@@ -258,7 +258,7 @@ def rows(*changed: tuple[int, str]) -> str:
         (rows((12, "2.25,0.001")), ["row 12"]),  # doubled
         ("\n".join(rows().splitlines()[:20] + rows().splitlines()[40:]), ["row 21"]),  # a gap
         ("\n".join(rows().splitlines()[:5]), ["4 rows", "at least 8"]),
-        ("distance_m,level_m\n", ["0 rows"]),
+        ("distance_m,level_m\n", ["no row of numbers"]),
         ("", ["empty"]),
         ("\n\n", ["empty"]),
         (rows((1, "distance,level")), ["row 1", "unit"]),
@@ -274,11 +274,11 @@ def test_tracks_that_are_none(refused, tmp_path, content, parts):
 
 
 def test_track_files_that_cannot_be_read(refused, tmp_path):
-    (tmp_path / "latin.csv").write_bytes(("# Gleishöhe\n" + LINE).encode("latin-1"))
-    (tmp_path / "utf16.csv").write_text(LINE, encoding="utf-16")
+    (tmp_path / "damaged.csv").write_bytes(("# Gleishöhe\n" + LINE).encode() + b"\xff")
+    (tmp_path / "zeros.csv").write_text(LINE.replace("0.5,", "0.5\0,"))
     (tmp_path / "folder.csv").mkdir()
-    for name, found in (("latin.csv", "UTF-8"), ("utf16.csv", "UTF-16"), ("folder.csv", "folder"),
-                        ("none.csv", "no such file")):  # fmt: skip
+    for name, found in (("damaged.csv", "UTF-8"), ("zeros.csv", "a zero byte"),
+                        ("folder.csv", "folder"), ("none.csv", "no such file")):  # fmt: skip
         for command in (["track", name], ["ride", "--track", name]):
             helps(refused(*command), name, found)
 

@@ -22,6 +22,8 @@ W = [round(3.0 * np.sin(0.7 * j) + 1.5 * np.cos(0.31 * j), 3) for j in range(40)
 OMEGA = [round(0.05 * 1.1**j, 5) for j in range(40)]
 S = [round(2.0 / x**3, 4) for x in OMEGA]
 
+CAR = '"Count","Location [km+m]","Vasen Korkeuspoikkeama D1 [mm]","Oikea Korkeuspoikkeama D1 [mm]"'
+
 LAYOUTS = {
     "commas": (",", ["distance_m,level_mm"], [f"{x},{w}" for x, w in zip(X, W, strict=True)]),
     "decimal commas": (
@@ -36,8 +38,7 @@ LAYOUTS = {
     ),
     "geometry car": (
         ",",
-        ['"Date","22/11/2022"', '"Count","Location [km+m]","Vasen Korkeuspoikkeama D1 [mm]",'
-         '"Oikea Korkeuspoikkeama D1 [mm]"'],
+        ['"Date","22/11/2022"', CAR],
         [f"{7 + j},130+{100 + x:07.2f},{w - 0.5:.3f},{w + 0.5:.3f}"
          for j, (x, w) in enumerate(zip(X, W, strict=True))],
     ),
@@ -141,7 +142,7 @@ def agrees(found, expected):
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_damaged_files_are_refused_or_read_as_they_stand(layout, tmp_path):
     separator, heads, rows = LAYOUTS[layout]
-    path, rng = tmp_path / "line4.csv", random.Random(20241)
+    path, rng = tmp_path / "line4.csv", random.Random(20241)  # noqa: S311
     whole = plainly(layout, "\n".join([*heads, *rows]))
     refused = read_as_written = 0
     for _ in range(VARIANTS):

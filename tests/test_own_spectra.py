@@ -165,7 +165,9 @@ def test_a_spectrum_is_read_from_a_file(tmp_path, head, two):
     assert_allclose(own.density(Omega), (two or 1.0) * S, rtol=1e-12)
     assert own.name == "own.csv"
     assert any("not stated" in said for said in own.remarks) == (two is None)
-    assert_allclose(read_spectrum(tmp_path / "own.csv", sidedness="two-sided").density(Omega), 2 * S)
+    assert_allclose(
+        read_spectrum(tmp_path / "own.csv", sidedness="two-sided").density(Omega), 2 * S
+    )
 
 
 def test_a_spectrum_by_the_name_of_its_file_is_one_everywhere(tmp_path):

@@ -35,7 +35,8 @@ from railride.plots.canvas import outline
 from railride.plots.modes import mode_shape
 from railride.plots.rides import track_of, zoom_around_peak
 from railride.rides import Case, Record, RideResult
-from railride.spectra import spectrum
+from railride.spectra import fit_spectra, spectrum, spectrum_names
+from railride.stochastic import measured_spectrum
 from railride.track import Track, synthesise
 from railride.vehicle import derive_vehicle
 
@@ -98,6 +99,25 @@ def test_track_spectrum_draws_estimate_spectrum_and_bands():
         [[edge.x0, edge.x1] for edge in edges],
         [[2 * np.pi / 25, 2 * np.pi / 3], [2 * np.pi / 70, 2 * np.pi / 25]],
     )
+
+
+def test_fits_are_drawn_by_families_and_the_best_is_marked():
+    track = synthesise("fra_5", 2000.0, 0.25, 3)
+    fits = fit_spectra(measured_spectrum(track))
+    ax = plot_track_spectrum(track, fits=fits)
+    best = line(ax, f"fra_5 fits best, to {fits[0].misfit_db:.1f} dB")
+    assert_allclose(best.get_ydata(), spectrum("fra_5").density(best.get_xdata()))
+    assert len(ax.lines) == 2 + len(spectrum_names())
+    assert texts(ax)[2:6] == [
+        "ERRI high, low", "FRA class 1 to 6, downwards", "SNCF poor, good", "Chinese ballastless"
+    ]  # fmt: skip
+    beside = plot_track_spectrum(track, spectrum("fra_4"), fits=fits)
+    assert line(beside, "spectrum fra_4").get_linewidth() > line(beside, "FRA").get_linewidth()
+    figure = plot_track_overview(track, fits=fits)
+    figure.draw_without_rendering()
+    ax = figure.axes[1]
+    legend = ax.get_legend().get_window_extent()
+    assert not legend.overlaps(ax.get_window_extent())
 
 
 def test_wavelengths_stand_above_the_wavenumbers():
@@ -256,7 +276,8 @@ import sys, numpy as np
 import railride.plots
 assert not any(name.startswith("matplotlib") for name in sys.modules), "loaded too early"
 from railride.plots import plot_track_overview, save
-from railride.spectra import spectrum
+from railride.spectra import fit_spectra, spectrum, spectrum_names
+from railride.stochastic import measured_spectrum
 from railride.track import synthesise
 source = spectrum("erri_low")
 for kind in ("png", "pdf", "SVG"):

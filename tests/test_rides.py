@@ -15,12 +15,13 @@ from railride.errors import InputError
 from railride.frequency import wheelset_delays
 from railride.modal import modes
 from railride.parameters import load_vehicle
-from railride.rides import load_track, ride
+from railride.rides import ride
 from railride.spectra import spectrum
 from railride.statespace import system_arrays
 from railride.stochastic import measured_spectrum, stochastic_ride
 from railride.timerun import run_in_time, time_run
 from railride.track import Track, synthesise
+from railride.trackfile import load_track
 from railride.vehicle import derive_vehicle
 from railride.weightings import apply_weighting, weighting
 

@@ -232,7 +232,7 @@ def ride(
 def exact_spectrum(
     source: Spectrum | Track, *, needed: bool = True
 ) -> tuple[Spectrum | None, list[str]]:
-    """The spectrum that exact values come from, and what to say of it.
+    """The spectrum that exact values come from, and what to say of it and of the track.
 
     A measured track's is estimated from the whole of it; None where that cannot be and the exact
     values are not ``needed``.
@@ -248,8 +248,8 @@ def exact_spectrum(
     except InputError as fault:
         if needed:
             raise
-        return None, [f"no exact value: {fault}"]
-    return found, [found.remark]
+        return None, [*source.remarks, f"no exact value: {fault}"]
+    return found, [*source.remarks, found.remark]
 
 
 def _exact(

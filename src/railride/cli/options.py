@@ -37,7 +37,7 @@ ExtrapolateOption = Annotated[
                        help="Continue a spectrum beyond the band it was stated for.")]  # fmt: skip
 TrackOption = Annotated[
     str, typer.Option("--track", metavar="NAME|FILE", rich_help_panel=TRACK,
-                      help="A track spectrum by name, or a file with distance_m, level_m.")
+                      help="A track spectrum by name, or the file of one or of a measured track.")
 ]  # fmt: skip
 
 
