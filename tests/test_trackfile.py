@@ -200,6 +200,7 @@ ONE_FAULT = [
     (text("distance_m,level_m,Höhe").encode("latin-1"), "row 1: found 3 cells in the header"),
     (with_line(5, "0.75,0.001 é").encode("latin-1"), "row 5, column 'level_m': found '0.001 é'"),
     (with_line(5, "0.75,0.001 é").encode() + b"\xff", "byte .* found 0xff, which is not UTF-8"),
+    ('"Ru\n', "row 1: found a quote that is not closed"),
     (with_line(5, "0.75,inv"), "row 5, column 'level_m': found 'inv'; .*--fill 0.25"),
     (text(w=3000 * W), "row .*, column 'level_m': found a level .* m off .*millimetres"),
     (text("distance_m;level_m", w=["0,5"] * 6 + ["1.234,5"] * 6, sep=";"), "'1.234,5'"),

@@ -144,7 +144,7 @@ def _picked_levels(table: NumberTable, asked: Asked, faults: Faults) -> list[Col
         if kind in _NOT_LEVELS:
             faults.add(place(table, column), _NOT_LEVELS[kind], "the longitudinal level",
                        "choose another column")  # fmt: skip
-    if len(found) > len(asked.levels) and not _are_rails(found):
+    if not faults.found and len(found) > len(asked.levels) and not _are_rails(found):
         _report_several(table, found, "level", faults)
     return found
 
