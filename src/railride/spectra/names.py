@@ -27,6 +27,8 @@ def spectrum_names() -> tuple[str, ...]:
 
 def is_file(name: str | Path) -> bool:
     """Whether what may be the name of a spectrum is a file's."""
+    if not str(name):
+        return False
     path = Path(name)
     try:
         there = path.exists()
