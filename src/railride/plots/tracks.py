@@ -94,7 +94,10 @@ def plot_track_spectrum(
 def plot_track_overview(
     track: Track, spectrum: Spectrum | None = None, *, fits: Sequence[Fit] = ()
 ) -> Figure:
-    """Draw the level above, the spectrum below, as :func:`plot_track_spectrum` does."""
+    """Draw the level above, the spectrum below.
+
+    spectrum, fits : as in :func:`plot_track_spectrum`.
+    """
     figure = canvas.new_figure(7.5, 7.6 if fits else 6.8)
     above, below = figure.subplots(2, 1, height_ratios=(2, 4 if fits else 3))
     plot_track(track, ax=above)
