@@ -22,11 +22,12 @@ from railride.errors import InputError
 from railride.modal import modes
 from railride.numeric import Array
 from railride.parameters import Vehicle, load_vehicle
-from railride.rides import PAPER_SPEEDS, RATE, exact_spectrum, load_track, ridden_track
+from railride.rides import PAPER_SPEEDS, RATE, exact_spectrum, ridden_track
 from railride.spectra import Spectrum
 from railride.stochastic import stochastic_ride
 from railride.timerun import time_run
 from railride.track import Track
+from railride.trackfile import load_track
 from railride.vehicle import VehicleModel, derive_vehicle
 from railride.weightings import weighting
 

@@ -8,8 +8,10 @@ import typer
 
 from railride.cli import options, output
 from railride.cli import vehicle as bodies
+from railride.cli.grouped import grouped
 from railride.cli.options import FORMATS, Arguments, kmh
 from railride.cli.progress import working
+from railride.cli.reading import FileReading, chosen_track
 
 if TYPE_CHECKING:
     from railride.comparison import ComparedBody, Comparison
@@ -18,7 +20,9 @@ COMPARED = "The bodies"
 
 
 @output.exits_cleanly
+@grouped(reading=FileReading)
 def compare(
+    reading: FileReading,
     segments: Annotated[
         list[str] | None,
         typer.Option(metavar="N", rich_help_panel=COMPARED,
@@ -73,13 +77,14 @@ def compare(
     output.check_output(given.faults, "--plot", plot)
     output.check_picture(given.faults, "--plot", plot)
     given.separate({"--output": to, "--plot": plot}, {"--vehicle": vehicle, "--track": track})
+    how = reading.of(given, track)
     given.check()
     with working("comparing") as advance:
         from railride import comparison
 
         chosen = {} if segments is None and modes is None else {"segments": cut, "beams": bent}
         found = comparison.compare_bodies(
-            vehicle, options.chosen_track(track, extrapolate), speeds, at=places, floor=floor,
+            vehicle, chosen_track(track, extrapolate, how), speeds, at=places, floor=floor,
             elements=comparison.available_elements(bent or comparison.MODES),
             bending_frequency=frequency, bending_damping=damping, progress=advance, **chosen,
         )  # fmt: skip
