@@ -16,7 +16,7 @@ ride: $(VENV)/test.stamp ## Derive the paper's coach, run it over 1 km at 145 an
 	$(BIN)/python -m railride ride --plots ride-plots
 
 test: $(VENV)/test.stamp ## Run the tests and the examples in the documentation
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto --dist worksteal
 
 lint: $(VENV)/dev.stamp ## Check style, format and types
 	$(BIN)/ruff check
