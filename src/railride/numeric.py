@@ -18,6 +18,9 @@ from railride.errors import InputError
 Array = NDArray[np.float64]
 Values = Mapping[str, ArrayLike]
 
+HELD = 1e-12  # of a matrix scaled to ones on its diagonal: below it no spring holds the motion
+SPREAD = 1e13  # of ω²: above it rounding decides the lowest frequencies
+
 FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan")}
 
 
@@ -150,3 +153,33 @@ def symmetric_eigenvalues(M: Array, K: Array) -> Array:
     inverse = np.linalg.inv(np.linalg.cholesky(M))
     A = inverse @ K @ np.swapaxes(inverse, -1, -2)
     return np.asarray(np.linalg.eigvalsh((A + np.swapaxes(A, -1, -2)) / 2))
+
+
+def refuse_untrustworthy(matrices: Matrices, coordinates: Sequence[str]) -> None:
+    """Refuse a vehicle that a motion leaves without a spring, or that rounding would decide."""
+    q, n = coordinates, matrices.K.shape[-1]
+    K = matrices.K.reshape(-1, n, n)
+    scale = np.sqrt(np.maximum(np.diagonal(K, axis1=-2, axis2=-1), np.finfo(float).tiny))
+    held, shapes = np.linalg.eigh(K / (scale[:, :, np.newaxis] * scale[:, np.newaxis, :]))
+    if held[:, 0].min() < HELD:
+        loose = q[int(np.argmax(np.abs(shapes[int(np.argmin(held[:, 0])), :, 0])))]
+        raise InputError(
+            f"K: found a motion that no spring holds, mostly along {loose}; expected a vehicle "
+            "that stands by itself (a bogie needs two wheelsets, or it can turn about one)"
+        )
+    M, stiffness = matrices.condensed
+    own = np.flatnonzero(matrices.inertial)
+    squares = symmetric_eigenvalues(M, stiffness).reshape(-1, own.size)
+    # Rounding may even turn the lowest negative: that is as far apart as can be.
+    lowest = np.maximum(squares[:, 0], 1e-30 * squares[:, -1])
+    spread = squares[:, -1] / lowest
+    if not (spread <= SPREAD).all():
+        worst = int(np.argmax(spread))
+        of = (-1, own.size, own.size)
+        ratio = np.diagonal(stiffness.reshape(of)[worst]) / np.diagonal(M.reshape(of)[worst])
+        raise InputError(
+            f"M: found natural frequencies that differ by {np.sqrt(spread[worst]):.1e}, the "
+            f"highest mostly along {q[own[int(np.argmax(ratio))]]}; expected less than "
+            f"{np.sqrt(SPREAD):.0e}, or rounding decides the lowest (a mass, inertia or "
+            "stiffness in the wrong unit?)"
+        )

@@ -23,7 +23,7 @@ from railride.carried import Carried, equipment_heave, mount_deflection
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.linear import LinearModel, linearise, output_rows
-from railride.numeric import Array, Matrices, MatrixFunction, symmetric_eigenvalues
+from railride.numeric import Array, Matrices, MatrixFunction, refuse_untrustworthy
 from railride.parameter_values import ParameterValues
 from railride.parameters import CarBody, Vehicle, load_vehicle
 from railride.plausibility import doubts
@@ -36,8 +36,6 @@ from railride.running_gear import (
 )
 
 _DERIVED_ONCE = ("lagrangian", "linear", "_numeric", "_rows", "_values")
-HELD = 1e-12  # of a matrix scaled to ones on its diagonal: below it no spring holds the motion
-SPREAD = 1e13  # of ω²: above it rounding decides the lowest frequencies
 
 
 @dataclass(frozen=True)
@@ -181,7 +179,7 @@ class VehicleModel:
         for place in self._places.values():
             self.body.check_moved(place, values)
         matrices = Matrices(**self._numeric(values), lift=self.lift)
-        self._refuse_untrustworthy(matrices)
+        refuse_untrustworthy(matrices, [q.name for q in self.lagrangian.coordinates])
         return matrices
 
     @cached_property
@@ -271,35 +269,6 @@ class VehicleModel:
     @cached_property
     def _rows(self) -> dict[tuple[Output, ...], MatrixFunction]:
         return {}
-
-    def _refuse_untrustworthy(self, matrices: Matrices) -> None:
-        """Refuse a vehicle that a motion leaves without a spring, or that rounding would decide."""
-        q, n = self.lagrangian.coordinates, matrices.K.shape[-1]
-        K = matrices.K.reshape(-1, n, n)
-        scale = np.sqrt(np.maximum(np.diagonal(K, axis1=-2, axis2=-1), np.finfo(float).tiny))
-        held, shapes = np.linalg.eigh(K / (scale[:, :, np.newaxis] * scale[:, np.newaxis, :]))
-        if held[:, 0].min() < HELD:
-            loose = q[int(np.argmax(np.abs(shapes[int(np.argmin(held[:, 0])), :, 0])))]
-            raise InputError(
-                f"K: found a motion that no spring holds, mostly along {loose}; expected a vehicle "
-                "that stands by itself (a bogie needs two wheelsets, or it can turn about one)"
-            )
-        M, stiffness = matrices.condensed
-        own = np.flatnonzero(matrices.inertial)
-        squares = symmetric_eigenvalues(M, stiffness).reshape(-1, own.size)
-        # Rounding may even turn the lowest negative: that is as far apart as can be.
-        lowest = np.maximum(squares[:, 0], 1e-30 * squares[:, -1])
-        spread = squares[:, -1] / lowest
-        if not (spread <= SPREAD).all():
-            worst = int(np.argmax(spread))
-            of = (-1, own.size, own.size)
-            ratio = np.diagonal(stiffness.reshape(of)[worst]) / np.diagonal(M.reshape(of)[worst])
-            raise InputError(
-                f"M: found natural frequencies that differ by {np.sqrt(spread[worst]):.1e}, the "
-                f"highest mostly along {q[own[int(np.argmax(ratio))]]}; expected less than "
-                f"{np.sqrt(SPREAD):.0e}, or rounding decides the lowest (a mass, inertia or "
-                "stiffness in the wrong unit?)"
-            )
 
 
 def _where(at: float) -> str:
