@@ -56,45 +56,56 @@ def first_order(m: Matrices) -> FirstOrder:
     """
     if m.M.ndim != 2:
         raise InputError("parameters: found arrays; expected one vehicle at a time")
-    n, inertial = len(m.M), m.inertial
+    return first_orders(m)
+
+
+def first_orders(m: Matrices) -> FirstOrder:
+    """The first-order form of one or many vehicles' matrices, (...,) before every shape.
+
+    q_x and, where every coordinate carries mass, v_x and v_f are the same for all. Raises as
+    :func:`first_order`, of many vehicles where one of them is so.
+    """
+    n, inertial, many = m.M.shape[-1], m.inertial, m.M.shape[:-2]
     i, r = np.flatnonzero(inertial), np.flatnonzero(~inertial)
     order = np.concatenate([i, r])
     s, k = n + len(i), len(i)
     q_x = np.zeros((n, s))
     q_x[order, np.arange(n)] = 1.0
-    v_x, v_f = np.zeros((n, s)), np.zeros((n, n))
-    v_x[i, n + np.arange(k)] = 1.0
+    v_x, v_f = np.zeros((*many, n, s)), np.zeros((*many, n, n))
+    v_x[..., i, n + np.arange(k)] = 1.0
     if r.size:
-        inverse = _inverse_of_dampers(m.C[np.ix_(r, r)])
-        v_x[r] = -inverse @ (m.C[np.ix_(r, i)] @ v_x[i] + m.K[r] @ q_x)
-        v_f[np.ix_(r, r)] = inverse
-    inverse = _inverse_of_masses(m.M[np.ix_(i, i)])
-    a_x, a_f = np.zeros((n, s)), np.zeros((n, n))
-    a_x[i] = -inverse @ (m.C[i] @ v_x + m.K[i] @ q_x)
-    a_f[i] = inverse @ (np.eye(n)[i] - m.C[i] @ v_f)
-    A = np.vstack([v_x[order], a_x[i]])
-    B = np.vstack([v_f[order], a_f[i]])
+        inverse = _inverse_of_dampers(m.C[..., r[:, np.newaxis], r])
+        v_x[..., r, :] = -inverse @ (m.C[..., r, :][..., i] @ v_x[..., i, :] + m.K[..., r, :] @ q_x)
+        v_f[..., r[:, np.newaxis], r] = inverse
+    inverse = _inverse_of_masses(m.M[..., i[:, np.newaxis], i])
+    a_x, a_f = np.zeros((*many, n, s)), np.zeros((*many, n, n))
+    a_x[..., i, :] = -inverse @ (m.C[..., i, :] @ v_x + m.K[..., i, :] @ q_x)
+    a_f[..., i, :] = inverse @ (np.eye(n)[i] - m.C[..., i, :] @ v_f)
+    A = np.concatenate([v_x[..., order, :], a_x[..., i, :]], axis=-2)
+    B = np.concatenate([v_f[..., order, :], a_f[..., i, :]], axis=-2)
     return FirstOrder(A, B, q_x, v_x, v_f, a_x, a_f, inertial, order)
 
 
 def _inverse_of_masses(M: Array) -> Array:
-    scale = 1 / np.sqrt(np.diagonal(M))
-    scaled = scale[:, np.newaxis] * M * scale
+    scale = 1 / np.sqrt(np.diagonal(M, axis1=-2, axis2=-1))
+    scale = scale[..., :, np.newaxis] * scale[..., np.newaxis, :]
+    scaled = scale * M
     try:
         inverse = np.linalg.inv(scaled)
     except np.linalg.LinAlgError:
         inverse = np.full_like(M, np.inf)
-    condition = np.abs(scaled).sum(axis=1).max() * np.abs(inverse).sum(axis=1).max()
+    condition = (np.abs(scaled).sum(axis=-1).max(axis=-1)
+                 * np.abs(inverse).sum(axis=-1).max(axis=-1)).max()  # fmt: skip
     if not condition <= 1e12:
         raise InputError(
             f"M: found a mass matrix of condition {condition:.1e}; expected below 1e12 (masses and "
             "inertias of very different size: check their units)"
         )
-    return np.asarray(scale[:, np.newaxis] * inverse * scale, dtype=float)
+    return np.asarray(scale * inverse, dtype=float)
 
 
 def _inverse_of_dampers(C: Array) -> Array:
-    if not (np.diagonal(C) > 0).all():
+    if not (np.diagonal(C, axis1=-2, axis2=-1) > 0).all():
         raise InputError(
             "C: found a damper of 0 on an elastic mount; expected a damping above 0 (leave the "
             "mount's stiffness out where there is no damper)"

@@ -23,13 +23,8 @@ from railride.errors import InputError
 from railride.frequency import check_ascending, check_frequency, wheelset_delays
 from railride.numeric import Array
 from railride.spectra import Spectrum, check_speed, temporal
-from railride.stochastic.process import (
-    PLAIN,
-    Gain,
-    Process,
-    panel_edges,
-    weighted,
-)
+from railride.stochastic.gains import PLAIN, Gain, weighted
+from railride.stochastic.process import Process, panel_edges
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 

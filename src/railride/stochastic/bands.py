@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from railride.comfort.third_octaves import NUMBERS, band_edges, nominal_frequencies
 from railride.spectra import Spectrum, coverage_remark
-from railride.stochastic.process import PLAIN, process, weighted
+from railride.stochastic.gains import PLAIN, weighted
+from railride.stochastic.process import process
 from railride.stochastic.ride import floor_in_hand
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting

@@ -29,7 +29,8 @@ from railride.errors import InputError
 from railride.numeric import Array
 from railride.spectra import Spectrum, check_speed
 from railride.statespace import chosen_outputs
-from railride.stochastic.process import BAND_HZ, Gain, process, relative
+from railride.stochastic.gains import PLAIN, Gain
+from railride.stochastic.process import BAND_HZ, process, relative
 from railride.stochastic.ride import in_hand
 from railride.vehicle import Output, VehicleModel
 
@@ -74,13 +75,13 @@ def expected_peak(rms: ArrayLike, crossings: ArrayLike, duration: float) -> Arra
 
 def low_pass(corner: float, order: int = LOW_PASS_ORDER) -> Gain:
     """|W(f)|² = 1/(1 + (f/f_c)^2n): Butterworth, -3 dB at the corner f_c, Hz."""
-    angles = np.pi * (2 * np.arange(2 * order) + 1) / (2 * order)
-    return Gain(lambda f: 1 / (1 + (f / corner) ** (2 * order)), corner * np.exp(1j * angles))
+    roots = corner**2 * np.exp(1j * np.pi * (2 * np.arange(order) + 1) / order)
+    return Gain(corner ** (2 * order), (), tuple(roots.tolist()))
 
 
 def moment(gain: Gain, order: int) -> Gain:
-    """|W(f)|² f^k, whose integral is the spectral moment m_k."""
-    return Gain(lambda f: f**order * gain.power(f), gain.poles)
+    """|W(f)|² f^k, k even, whose integral is the spectral moment m_k."""
+    return gain * Gain(1.0, (0.0,) * (order // 2))
 
 
 def extremes(
@@ -104,9 +105,7 @@ def extremes(
     if not (isfinite(corner) and corner > 0):
         raise InputError(f"corner: found {corner:g} Hz; expected a finite frequency above 0")
     m, rows = in_hand(model, chosen, changes)
-    plain = Gain(np.ones_like, np.zeros(0, dtype=complex))
-    filtered = low_pass(corner)
-    gains = tuple(moment(gain, k) for gain in (plain, filtered) for k in (0, 2))
+    gains = tuple(moment(gain, k) for gain in (PLAIN, low_pass(corner)) for k in (0, 2))
     places = model.vehicle.wheelset_positions
     found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
     squares, errors = found.mean_square, found.error

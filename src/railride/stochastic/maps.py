@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike
 from railride.comfort import wz_from_rms
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.spectra import Spectrum, check_speed, coverage_remark
-from railride.stochastic.process import PLAIN, process, sperling, weighted
+from railride.spectra import Spectrum, coverage_remark
+from railride.stochastic.gains import PLAIN, sperling, weighted
 from railride.stochastic.ride import STATED, floor_in_hand
+from railride.stochastic.squares import mean_squares
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -79,10 +80,9 @@ def comfort_map(
     gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
     parts, remarks = [], []
     for number, speed in enumerate(speeds, start=1):
-        check_speed(speed)
         wheelsets = model.vehicle.wheelset_positions
-        found = process(m, rows, wheelsets, speed, spectrum, gains).integrals()
-        a, a_w, a_B = np.sqrt(found.mean_square)
+        squares, errors = mean_squares(m, rows, wheelsets, [speed], spectrum, gains)
+        a, a_w, a_B = np.sqrt(squares[0, 0])
         parts.append(
             pd.DataFrame({
                 "speed [km/h]": round(3.6 * speed, 9),
@@ -90,7 +90,7 @@ def comfort_map(
                 "a_rms [m/s^2]": a,
                 "a_wrms [m/s^2]": a_w,
                 "Wz": wz_from_rms(a_B),
-                "error": found.error[1] / 2,
+                "error": errors[0, 0, 1] / 2,
             })
         )  # fmt: skip
         remarks.append(coverage_remark(spectrum.name, spectrum.active_band, speed))

@@ -14,20 +14,18 @@ Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed.,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from railride.comfort import sperling_weighting
 from railride.errors import InputError
 from railride.frequency import Triangular, triangular
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum, check_speed
+from railride.stochastic.gains import PLAIN, Gain
 from railride.stochastic.quadrature import distances, gauss_errors, gauss_points, graded_panels
-from railride.weightings import Weighting
 
 Complex = NDArray[np.complex128]
 
@@ -37,17 +35,6 @@ _LINE = 1e-8  # half the width of an undamped mode's line, of its frequency
 _MOST_IN_LINE = 1e-6  # of the mean square
 _PANELS_TOGETHER = 2000  # at a time: what the memory need not notice
 _EPSILON = float(np.finfo(float).eps)
-
-
-@dataclass(frozen=True)
-class Gain:
-    """|W(f)|² with its poles in the plane of f."""
-
-    power: Callable[[Array], Array]
-    poles: Complex
-
-
-PLAIN = Gain(np.ones_like, np.zeros(0, dtype=complex))
 
 
 @dataclass(frozen=True)
@@ -249,30 +236,6 @@ def process(
         edges,
         tuple(gains),
     )
-
-
-@lru_cache(maxsize=32)
-def weighted(weight: Weighting) -> Gain:
-    """|W(f)|² of a frequency weighting, of its factors' real and imaginary parts at s = jω."""
-    factors = [tuple((*[0.0] * (3 - len(p)), *p) for p in pair) for pair in weight.factors()]
-
-    def power(f: Array) -> Array:
-        square = (2 * np.pi * f) ** 2
-        top, bottom = np.ones_like(f), np.ones_like(f)
-        for (a, b, c), (d, e, g) in factors:
-            top *= (c - a * square) ** 2 + b**2 * square
-            bottom *= (g - d * square) ** 2 + e**2 * square
-        return np.asarray(top / bottom)
-
-    return Gain(power, weight.poles() / (2j * np.pi))
-
-
-@lru_cache(maxsize=1)
-def sperling() -> Gain:
-    """B(f)² of Sperling's vertical comfort weighting, and its denominator's roots."""
-    even, odd = np.array([-0.277, 0.0, 1.0]), np.array([-0.0368, 0.0, 1.563, 0.0])
-    roots = np.roots(np.polyadd(np.polymul(even, even), np.polymul(odd, odd)))
-    return Gain(lambda f: np.asarray(sperling_weighting(f) ** 2), roots.astype(complex))
 
 
 def covered_band(

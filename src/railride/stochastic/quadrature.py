@@ -104,9 +104,12 @@ def distances(a: Array, b: Array, poles: NDArray[np.complex128]) -> Array:
     return np.asarray(np.sqrt((beside * beside + y * y).min(axis=0)))
 
 
-def gauss_points(edges: Array) -> tuple[Array, Array]:
-    """Points and weights of Gauss's rule on every panel, each of shape (panels · points,)."""
-    x, w, _ = _rule(GAUSS_POINTS)
+def gauss_points(edges: Array, points: int | None = None) -> tuple[Array, Array]:
+    """Points and weights of Gauss's rule on every panel, each of shape (panels · points,).
+
+    points : on every panel, default :data:`GAUSS_POINTS`.
+    """
+    x, w, _ = _rule(points or GAUSS_POINTS)
     half = np.diff(edges)[:, np.newaxis] / 2
     middle = (edges[:-1] + edges[1:])[:, np.newaxis] / 2
     return (middle + half * x).ravel(), (half * w).ravel()
@@ -115,12 +118,12 @@ def gauss_points(edges: Array) -> tuple[Array, Array]:
 def gauss_errors(values: Array, length: ArrayLike) -> Array:
     """Estimated error of Gauss's rule on every panel, shape (..., P).
 
-    values : the integrand, ≥ 0, at each panel's points, (..., P, points). length : of the panels.
+    values : the integrand at each panel's points, (..., P, points). length : of the panels.
     """
     _, _, last = _rule(values.shape[-1])
     c = np.abs(values @ last)
     before, tail = c[..., :_TAIL].max(axis=-1), c[..., _TAIL:].max(axis=-1)
-    largest, tiny = values.max(axis=-1), np.finfo(float).tiny
+    largest, tiny = np.abs(values).max(axis=-1), np.finfo(float).tiny
     times = (values.shape[-1] + 1) / _TAIL
     lately = np.minimum(tail / np.maximum(before, tiny), 1.0) ** times
     overall = np.minimum(tail / np.maximum(largest, tiny), 1.0)

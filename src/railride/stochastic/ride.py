@@ -21,7 +21,9 @@ from numpy.typing import ArrayLike
 from railride.comfort import wz_from_rms
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum
-from railride.stochastic.process import BAND_HZ, PLAIN, process, relative, sperling, weighted
+from railride.stochastic.gains import PLAIN, sperling, weighted
+from railride.stochastic.process import BAND_HZ, process, relative
+from railride.stochastic.squares import mean_squares
 from railride.vehicle import Output, VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -89,8 +91,10 @@ def stochastic_ride(
     m, rows = floor_in_hand(model, at, floor, changes)
     gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
     places = model.vehicle.wheelset_positions
-    found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
-    (a, a_w, a_B), (a_error, w_error, B_error) = np.sqrt(found.mean_square), found.error / 2
+    squares, errors = (of[0, 0] for of in mean_squares(m, rows, places, [speed], spectrum, gains,
+                                                       band))  # fmt: skip
+    scatter = process(m, rows, places, speed, spectrum, gains[1:2], band=band).integrals().squares
+    (a, a_w, a_B), (a_error, w_error, B_error) = np.sqrt(squares), errors / 2
     wz_error = 0.3 * B_error
     remarks = [
         f"{3.6 * speed:.6g} km/h, {x:g} m: the integral of {name} is uncertain by {error[k]:.0e} of"
@@ -104,7 +108,7 @@ def stochastic_ride(
         a_rms=a,
         a_wrms=a_w,
         wz=np.asarray(wz_from_rms(a_B)),
-        variance_time=relative(found.squares[1], found.mean_square[1] ** 2),
+        variance_time=relative(scatter[0], squares[1] ** 2),
         a_rms_error=a_error,
         a_wrms_error=w_error,
         wz_error=wz_error,
@@ -136,9 +140,38 @@ def weighted_rms(
     >>> round(float(a_w[0]), 3)
     0.328
     """
+    a_w, error = weighted_rms_of_many(m, rows, places, [speed], spectrum, weight, band)
+    return a_w[0, 0], error[0, 0]
+
+
+def weighted_rms_of_many(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speeds: Sequence[float],
+    spectrum: Spectrum,
+    weight: Weighting,
+    band: tuple[float, float] = BAND_HZ,
+) -> tuple[Array, Array]:
+    """Weighted r.m.s. of outputs of many vehicles at several speeds; its estimated relative error.
+
+    Arguments as for :func:`railride.stochastic.squares.mean_squares`; both results have the shape
+    (vehicles, speeds, outputs). A vehicle that would be refused alone has NaN.
+
+    Examples
+    --------
+    >>> from railride import derive_vehicle, load_vehicle, spectrum
+    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
+    >>> rows = coach.output_rows([coach.floor(0.0, "polygon")])
+    >>> softer_and_stiffer = coach.matrices(k_2=[600e3, 750e3, 900e3])
+    >>> a_w, _ = weighted_rms_of_many(softer_and_stiffer, rows, coach.vehicle.wheelset_positions,
+    ...                               [145 / 3.6, 200 / 3.6], spectrum("erri_low"), weighting("Wk"))
+    >>> a_w.shape, a_w[1, :, 0].round(3).tolist()
+    ((3, 2, 1), [0.247, 0.328])
+    """
     gains = (weighted(weight),)
-    found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
-    return np.sqrt(found.mean_square[0]), found.error[0] / 2
+    squares, errors = mean_squares(m, rows, places, speeds, spectrum, gains, band)
+    return np.sqrt(squares[:, :, 0]), errors[:, :, 0] / 2
 
 
 def in_hand(

@@ -29,7 +29,8 @@ from railride.firstorder import FirstOrder, first_order
 from railride.modal import Mode, modes
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum
-from railride.stochastic.process import PLAIN, process, weighted
+from railride.stochastic.gains import PLAIN, weighted
+from railride.stochastic.process import process
 from railride.stochastic.ride import floor_in_hand
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting

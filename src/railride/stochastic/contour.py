@@ -1,0 +1,159 @@
+r"""The path that closes a band of frequencies: along a ray to infinity.
+
+Let F(s) be real on the real axis, with a density Re F on the imaginary one, and fall towards
+infinity to its right. Then, with ω = 2πf,
+
+.. math:: \int_{f_1}^{f_2} \mathrm{Re}\, F(i\omega)\, df = -\frac{1}{2} \sum_q \mathrm{Res}_q\, F
+          - \frac{1}{2\pi}\, \mathrm{Im} \int_{i\omega_2}^{\infty} F\, ds
+          - \int_0^{f_1} \mathrm{Re}\, F(i\omega)\, df
+
+over the poles q to the right that lie below the ray from iω_2 and above its mirror image. Those of
+higher modes, however lightly damped, lie beyond and are left out as they are. What the ray and the
+lowest frequencies hold is little, and Gauss's rule takes it on panels that shrink towards poles.
+
+Here F = K Φ, K of the vehicle (:mod:`railride.stochastic.residues`) and Φ, even in s, of spectrum
+and weighting.
+
+Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1 (mean
+squares by contour integration).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from railride.numeric import Array
+from railride.stochastic.gains import Complex, Gain
+from railride.stochastic.quadrature import REACH, distances, gauss_points, graded_panels
+
+POINTS = 10  # on every panel
+RAY = 1 + 0.5j  # direction: away from the weightings' poles, below those of higher modes
+_LONGEST, _RATIO = 0.8, 6.0  # panels of the ray: first of ω_2, then from one to the next
+_DECAY = 3.0  # of the longest lag's exponential, over the shortest panel
+_NONE = np.zeros(0, dtype=complex)
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """Where K is needed for one speed, and with what it counts.
+
+    densities : Φ of every gain. gaps : delays from one wheelset to the next, s. corner : ω_2.
+    points : s (N,), poles of Φ first, then those on panels. weights : (gains, N, 1); what is not
+    the vehicle's poles' is Re Σ weights · K. along, low : edges of the panels of the ray, u with s
+    = iω_2 + ω_2 RAY u/(1 - u), and of those from 0 to f_1, Hz. df : of the points on panels.
+    """
+
+    densities: tuple[Gain, ...]
+    gaps: Array
+    corner: float
+    points: Complex
+    weights: Complex
+    along: Array
+    low: Array
+    df: Array
+
+    def density(self, s: Complex) -> Complex:
+        """Φ of every gain, (gains, ...)."""
+        return _density(self.densities, s)
+
+    def holds(self, q: Complex) -> NDArray[np.bool_]:
+        """Whether poles to the right of the axis are below the ray and above its mirror image."""
+        return np.asarray(np.abs(q.imag) < self.corner + RAY.imag * q.real)
+
+    def resolves(self, q: Complex) -> bool:
+        """Whether panels are short enough beside these poles of K."""
+        for edges, poles in ((self.along, _along(q, self.corner)), (self.low, q / 2j / np.pi)):
+            away = distances(edges[:-1], edges[1:], poles)
+            if (np.diff(edges) > REACH * away * (1 + 1e-9)).any():
+                return False
+        return True
+
+    @property
+    def lengths(self) -> Array:
+        """Of the panels."""
+        return np.concatenate([np.diff(self.along), np.diff(self.low)])
+
+
+def contour(
+    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float], q: Complex
+) -> Contour:
+    """The contour of a band, Hz, whose panels shrink towards the poles q of K where they must."""
+    usual = _usual(densities, gaps, band)
+    return usual if usual.resolves(q) else _contour(densities, gaps, band, q)
+
+
+@lru_cache(maxsize=64)
+def _usual(
+    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float]
+) -> Contour:
+    return _contour(densities, gaps, band, _NONE)
+
+
+def _contour(
+    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float], q: Complex
+) -> Contour:
+    corner, lag = 2 * np.pi * band[1], sum(gaps)
+    of_Phi = 2j * np.pi * np.concatenate([density.poles for density in densities])
+    q = np.concatenate([q, of_Phi, -of_Phi, of_Phi.conj(), -of_Phi.conj()])
+    far = [_LONGEST]
+    while far[-1] * corner * lag > _DECAY:
+        far.append(far[-1] / _RATIO)
+    ends = [0.0, *(y / (1 + y) for y in reversed(far)), 1.0]
+    along = graded_panels(ends, _along(q, corner), 1.0)
+    u, du = gauss_points(along, POINTS)
+    ray = corner * (1j + RAY * u / (1 - u))
+    low = graded_panels([0.0, band[0]], q / 2j / np.pi, 1 / max(lag, 1 / band[0]))
+    f, df = gauss_points(low, POINTS)
+    axis = 2j * np.pi * f
+    own, weights = _poles(densities, corner)
+    on_ray = 0.5j / np.pi * corner * RAY * du / (1 - u) ** 2 * _density(densities, ray)
+    return Contour(
+        densities,
+        np.array(gaps),
+        corner,
+        np.concatenate([own, ray, axis]),
+        np.hstack([weights, on_ray, -df * _density(densities, axis)])[..., np.newaxis],
+        along,
+        low,
+        np.concatenate([du, df]),
+    )
+
+
+def _along(q: Complex, corner: float) -> Complex:
+    """Poles as u along the ray, which they are beside."""
+    y = (q / corner - 1j) / RAY
+    return np.asarray(y[y != -1] / (1 + y[y != -1]))
+
+
+def _density(densities: Sequence[Gain], s: NDArray[Any]) -> Complex:
+    x = s * s / (-4 * np.pi**2)
+    return np.stack([density.at(x) for density in densities])
+
+
+def _poles(densities: Sequence[Gain], corner: float) -> tuple[Complex, Complex]:
+    """Φ's poles s with Re s > 0 and 0 ≤ Im s below the ray, (M,); their weights, (gains, M).
+
+    Of those above the real axis, the conjugate has the same share. The residue in s is -2π²/s times
+    that in x = -s²/4π².
+    """
+    found, weights = [], []
+    for number, density in enumerate(densities):
+        b = np.array(density.square_poles, dtype=complex)
+        s = 2j * np.pi * np.sqrt(b)
+        s = np.where(s.real < 0, -s, s)
+        top = Gain(density.factor, density.square_zeros).at(b)
+        residue = top / np.prod(b[:, np.newaxis] - b + np.eye(b.size), axis=1)
+        weight = np.pi**2 * residue / s * np.where(s.imag > 0, 2, 1)
+        weight[s.real <= 0] = np.nan  # on the path itself: no value at all
+        below = (s.imag >= 0) & (s.imag < corner + RAY.imag * s.real)
+        rows = np.zeros((len(densities), below.sum()), dtype=complex)
+        rows[number] = weight[below]
+        found.append(s[below])
+        weights.append(rows)
+    return np.concatenate(found), np.hstack(weights)

@@ -1,0 +1,147 @@
+r"""Mean squares over rational spectra in closed form, of many vehicles at once.
+
+With the delays τ_i of the wheelsets and their responses g_i (:mod:`railride.stochastic.fractions`),
+
+.. math:: \Big|\sum_i e^{-i\omega\tau_i} g_i\Big|^2 = \mathrm{Re}\, K(i\omega), \qquad
+          K(s) = \sum_{\tau_i \ge \tau_j} c_{ij}\, e^{-s(\tau_i - \tau_j)} g_i(s)\, g_j(-s),
+          \qquad c_{ii} = 1, \quad c_{ij} = 2,
+
+so that every lag falls to the right of the imaginary axis, where K has the poles -p_k of g_j(-s):
+the residue there is that of K with -r_jk in place of g_j(-s). With Φ(s), |s^p|² |W|² S_w on the
+axis, the mean square is an integral as :mod:`railride.stochastic.contour` closes it.
+
+The error stated is that of the rule on the contour's panels, of rounding in the sums, of the poles,
+known to ε max|p|, and of the fractions, checked at the resonances of the modes that count most.
+
+Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1, with
+the delays and the band added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from railride.numeric import Array, Matrices
+from railride.spectra import Spectrum
+from railride.stochastic.contour import POINTS, Contour, contour
+from railride.stochastic.fractions import PartialFractions, partial_fractions
+from railride.stochastic.gains import Complex, Gain, rational
+from railride.stochastic.process import UNDAMPED, covered_band
+from railride.stochastic.quadrature import gauss_errors
+
+CHECKED = 4  # modes of each vehicle at whose resonances its fractions are checked
+_CAUTION = 4.0  # factor on what the check finds
+_TOGETHER = 64  # vehicles at a time: what the processor keeps close by
+_EPSILON = float(np.finfo(float).eps)
+
+
+def residue_squares(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speeds: Sequence[float],
+    spectrum: Spectrum,
+    gains: Sequence[Gain],
+    band: tuple[float, float],
+) -> tuple[Array, Array] | None:
+    """Mean squares and their estimated relative errors, (vehicles, speeds, gains, outputs).
+
+    Arguments as for :func:`railride.stochastic.squares.mean_squares`. The error is infinite or NaN
+    where there is no trustworthy value: a mode without damping, or one that grows.
+
+    Returns
+    -------
+    squares, errors : None where the spectrum is not rational, or the outputs have no partial
+        fractions.
+    """
+    with np.errstate(all="ignore"):  # what comes of it is not finite, and not trusted
+        g = partial_fractions(m, rows)
+        if g is None:
+            return None
+        of_speeds = []
+        for V in speeds:
+            densities = _densities(spectrum, V, g.power, tuple(gains))
+            if densities is None:
+                return None
+            gaps = tuple((-np.diff(places) / V).tolist())
+            of_speeds.append((densities, gaps, covered_band(spectrum, V, band)))
+        found = []
+        for start in range(0, len(g.poles), _TOGETHER):
+            some = g[start : start + _TOGETHER]
+            q = np.concatenate([some.poles, -some.poles], axis=None)
+            found.append(_squares(some, [contour(*of, q) for of in of_speeds]))
+    squares, errors = zip(*found, strict=True)
+    return np.concatenate(squares), np.concatenate(errors)
+
+
+@lru_cache(maxsize=64)
+def _densities(
+    spectrum: Spectrum, speed: float, power: int, gains: tuple[Gain, ...]
+) -> tuple[Gain, ...] | None:
+    """Φ of every gain; None where it is not rational, or grows towards infinity as K falls."""
+    S_w = rational(spectrum, speed)
+    if S_w is None:
+        return None
+    motion = Gain((4 * np.pi**2) ** power, (0.0,) * power)
+    found = tuple(S_w * motion * gain for gain in gains)
+    if any(len(Phi.square_zeros) > len(Phi.square_poles) for Phi in found):
+        return None
+    return found
+
+
+def _squares(g: PartialFractions, contours: Sequence[Contour]) -> tuple[Array, Array]:
+    """Mean squares and relative errors, (D, speeds, gains, outputs)."""
+    mirrored = g.response(-g.poles)
+    each = [_integrals(g, mirrored, contour) for contour in contours]
+    squares, errors, shares = (np.stack(part, axis=1) for part in zip(*each, strict=True))
+    largest = (shares / np.abs(squares)[..., np.newaxis, :]).max(axis=(1, 2, 4))
+    largest[g.poles.imag < 0] = 0.0  # as large as their conjugates
+    vehicle, checked = np.arange(len(largest))[:, np.newaxis], np.argsort(-largest)[:, :CHECKED]
+    off = g.mismatch(1j * np.abs(g.poles[vehicle, checked]))  # of g: twice of its square
+    shares = shares[vehicle, :, :, checked]  # (D, modes, speeds, gains, outputs), of one of a pair
+    errors += 4 * _CAUTION * (shares * off[:, :, np.newaxis, np.newaxis]).sum(axis=1)
+    errors /= np.abs(squares)
+    errors[(-g.poles.real <= UNDAMPED * np.abs(g.poles)).any(axis=-1)] = np.inf
+    return squares, errors
+
+
+def _integrals(
+    g: PartialFractions, mirrored: Complex, contour: Contour
+) -> tuple[Array, Array, Array]:
+    """Mean squares, their errors but for those of g, (D, gains, outputs), and the poles' shares.
+
+    mirrored : g at -p. Shares : their absolute values, (D, gains, s, outputs).
+    """
+    s, N = contour.points, contour.points.size
+    there = g.response(np.concatenate([s, -s]))
+    K = _pairs(there[:, :N], there[:, N:], np.exp(-np.multiply.outer(s, contour.gaps)))
+    parts = (contour.weights * K[:, np.newaxis]).real
+    K = _pairs(mirrored, g.apart(g.residues), np.exp(np.multiply.outer(g.poles, contour.gaps)))
+    half = 0.5 * contour.holds(-g.poles) * contour.density(g.poles)
+    shares = np.moveaxis(half, 0, 1)[..., np.newaxis] * K[:, np.newaxis]
+    size, lengths = np.abs(shares), contour.lengths
+    on_panels = np.moveaxis(parts[:, :, -contour.df.size :], 2, 3) / contour.df
+    by_panel = on_panels.reshape(*on_panels.shape[:-1], lengths.size, POINTS)
+    errors = gauss_errors(by_panel, lengths).sum(axis=-1)
+    errors += 10 * _EPSILON * np.abs(parts).sum(axis=2)
+    moved = np.abs(g.poles).max(axis=-1, keepdims=True) / np.abs(g.poles.real)
+    errors += _EPSILON * np.einsum("dgso,ds->dgo", size, 10 + _CAUTION * moved)
+    return parts.sum(axis=2) + shares.sum(axis=2).real, errors, size
+
+
+def _pairs(later: Complex, earlier: Complex, lag: Complex) -> Complex:
+    """Σ c_ij e^{-s(τ_i - τ_j)} later_i earlier_j over τ_i ≥ τ_j, (D, N, outputs).
+
+    later, earlier : (D, N, outputs, wheelsets). lag : e^{-s(τ_i - τ_{i-1})}, (..., N, wheelsets -
+    1), by which what the wheelsets ahead excite is carried on to the next.
+    """
+    lag, carried = lag[..., np.newaxis, :], earlier[..., 0]
+    total = later[..., 0] * carried
+    for i in range(1, earlier.shape[-1]):
+        carried = carried * lag[..., i - 1]
+        total += later[..., i] * (earlier[..., i] + 2 * carried)
+        carried += earlier[..., i]
+    return total

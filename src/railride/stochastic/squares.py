@@ -1,0 +1,85 @@
+"""Mean squares of outputs: in closed form where that can be trusted, by quadrature elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from railride.errors import InputError
+from railride.numeric import Array, Matrices
+from railride.spectra import Spectrum, check_speed
+from railride.stochastic.gains import PLAIN, Gain
+from railride.stochastic.process import BAND_HZ, covered_band, process
+from railride.stochastic.residues import residue_squares
+
+TRUSTED = 1e-8  # relative error of a residue sum above which it is integrated after all
+NAMES = ("M", "C", "K", "K_w", "C_w", "B_f")
+
+
+def mean_squares(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speeds: Sequence[float],
+    spectrum: Spectrum,
+    gains: Sequence[Gain] = (PLAIN,),
+    band: tuple[float, float] = BAND_HZ,
+) -> tuple[Array, Array]:
+    """Mean squares of outputs and their estimated relative errors.
+
+    Parameters
+    ----------
+    m, rows : of one vehicle, or of many with one leading axis (``VehicleModel.matrices`` and
+        ``VehicleModel.output_rows``; the rows without it where they are the same for all).
+    places : of the wheelsets, m forward (``Vehicle.wheelset_positions``). speeds : m/s, each > 0.
+    gains : weightings. band : from and to, Hz.
+
+    Returns
+    -------
+    squares, errors : (vehicles, speeds, gains, outputs). Of many vehicles, one that would be
+        refused alone has NaN, and an infinite error.
+
+    Raises
+    ------
+    InputError : speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one that is
+        unstable, or in whose output an undamped mode takes part.
+    """
+    for speed in speeds:
+        check_speed(speed)
+        covered_band(spectrum, speed, band)
+    try:
+        found = residue_squares(m, rows, places, speeds, spectrum, gains, band)
+    except np.linalg.LinAlgError:  # no eigenvectors
+        found = None
+    if found is None:
+        outputs = rows["d"].shape[-2]
+        shape = (len(m.M) if m.M.ndim > 2 else 1, len(speeds), len(gains), outputs)
+        found = np.full(shape, np.nan), np.full(shape, np.inf)
+    squares, errors = found
+    doubtful = ~(errors <= TRUSTED)
+    for d, k in np.argwhere(doubtful.any(axis=(2, 3))).tolist():
+        vehicle = _one(m, rows, d)
+        try:
+            by_rule = process(*vehicle, places, speeds[k], spectrum, gains, band=band).integrals()
+        except InputError:
+            if m.M.ndim == 2:
+                raise
+            squares[d, k], errors[d, k] = np.nan, np.inf
+            continue
+        replace = doubtful[d, k]
+        squares[d, k][replace] = by_rule.mean_square[replace]
+        errors[d, k][replace] = by_rule.error[replace]
+    return squares, errors
+
+
+def _one(
+    m: Matrices, rows: Mapping[str, Array], number: int
+) -> tuple[Matrices, Mapping[str, Array]]:
+    """Matrices and rows of one vehicle of several, or of the only one."""
+    if m.M.ndim == 2:
+        return m, rows
+    own = {name: getattr(m, name)[number] for name in NAMES}
+    return Matrices(**own, lift=m.lift), {
+        name: row[number] if row.ndim > 2 else row for name, row in rows.items()
+    }
