@@ -108,7 +108,9 @@ def _contour(
     along = graded_panels(ends, _along(q, corner), 1.0)
     u, du = gauss_points(along, POINTS)
     ray = corner * (1j + RAY * u / (1 - u))
-    low = graded_panels([0.0, band[0]], q / 2j / np.pi, 1 / max(lag, 1 / band[0]))
+    low = np.zeros(1)
+    if band[0] > 0:
+        low = graded_panels([0.0, band[0]], q / 2j / np.pi, 1 / max(lag, 1 / band[0]))
     f, df = gauss_points(low, POINTS)
     axis = 2j * np.pi * f
     own, weights = _poles(densities, corner)

@@ -42,9 +42,11 @@ def mean_squares(
 
     Raises
     ------
-    InputError : speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one that is
+    InputError : no speeds, a speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one that is
         unstable, or in whose output an undamped mode takes part.
     """
+    if not len(speeds):
+        raise InputError("speeds: found none; expected at least one, in m/s")
     for speed in speeds:
         check_speed(speed)
         covered_band(spectrum, speed, band)
