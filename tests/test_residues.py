@@ -15,6 +15,7 @@ from vehicles import paper_coach, random_model, random_vehicle
 
 from railride.comfort import sperling_weighting
 from railride.errors import InputError
+from railride.firstorder import first_order, first_orders
 from railride.frequency import track_response, triangular
 from railride.numeric import Matrices
 from railride.parameters import Load, load_vehicle
@@ -361,6 +362,17 @@ def test_an_elevation_that_grows_without_end_is_integrated():
     assert error < 1e-9
 
 
+def test_wheelsets_in_another_order_are_integrated():
+    model, V = random_model(0, 2), 40.0
+    m, rows = floor_in_hand(model, [3.0], "smooth", {})
+    places = np.array(model.vehicle.wheelset_positions)
+    turned = replace(m, K_w=m.K_w[:, ::-1], C_w=m.C_w[:, ::-1])
+    assert residue_squares(turned, rows, places[::-1], [V], LOW, GAINS, BAND_HZ) is None
+    found, _ = mean_squares(turned, rows, places[::-1], [V], LOW, GAINS)
+    exact, _ = mean_squares(m, rows, places, [V], LOW, GAINS)
+    np.testing.assert_allclose(found, exact, rtol=1e-11)
+
+
 def test_modes_without_damping_count_where_they_are_felt_only():
     """Without c_1 nothing damps the bogies' pitch; the body's springs do not feel it."""
     model = paper_coach(2)
@@ -411,6 +423,19 @@ def test_many_at_once_are_each_alone():
                                     places, V, LOW, WK)  # fmt: skip
             np.testing.assert_allclose(found[k, j, 0], alone[0], rtol=1e-11)
             np.testing.assert_allclose(found[k, j, 1], alone[1], rtol=1e-9)  # bending 2
+
+
+@pytest.mark.parametrize("model", [paper_coach(4), maxwell_coach(2e6, 12e6)], ids=["", "mounts"])
+def test_first_orders_are_each_vehicles_own(model):
+    changes = {"k_2": [6e5, 9e5], "c_1": [20e3, 40e3]}
+    many = first_orders(model.matrices(**changes))
+    for k in range(2):
+        one = first_order(model.matrices(k_2=changes["k_2"][k], c_1=changes["c_1"][k]))
+        for name in ("A", "B", "v_x", "v_f", "a_x", "a_f"):
+            np.testing.assert_array_equal(getattr(many, name)[k], getattr(one, name))
+        np.testing.assert_array_equal(many.q_x, one.q_x)
+    with pytest.raises(InputError, match="one vehicle at a time"):
+        first_order(model.matrices(**changes))
 
 
 def test_rows_may_be_the_same_for_all():

@@ -14,8 +14,9 @@ lowest frequencies hold is little, and Gauss's rule takes it on panels that shri
 Here F = K Φ, K of the vehicle (:mod:`railride.stochastic.residues`) and Φ, even in s, of spectrum
 and weighting.
 
-Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1 (mean
-squares by contour integration).
+Source: H.M. James, N.B. Nichols, R.S. Phillips, Theory of Servomechanisms, McGraw-Hill 1947,
+Chapter 7 (mean squares by residues); D. Huybrechs, S. Vandewalle, SIAM J. Numer. Anal. 44 (2006)
+1026-1048 (the path that leaves an oscillation behind).
 """
 
 from __future__ import annotations

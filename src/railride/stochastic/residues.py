@@ -13,8 +13,8 @@ axis, the mean square is an integral as :mod:`railride.stochastic.contour` close
 The error stated is that of the rule on the contour's panels, of rounding in the sums, of the poles,
 known to ε max|p|, and of the fractions, checked at the resonances of the modes that count most.
 
-Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1, with
-the delays and the band added.
+Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1 (mean
+squares of rational spectra), with the delays and the band added.
 """
 
 from __future__ import annotations
@@ -54,48 +54,42 @@ def residue_squares(
 
     Returns
     -------
-    squares, errors : None where the spectrum is not rational, or the outputs have no partial
-        fractions.
+    squares, errors : None where the spectrum is not rational, the outputs have no partial
+        fractions, a density does not fall towards infinity, or ``places`` are in no order.
     """
+    tracks = [rational(spectrum, V) for V in speeds]
+    if None in tracks or (np.diff(places) > 0).any():
+        return None
     with np.errstate(all="ignore"):  # what comes of it is not finite, and not trusted
         g = partial_fractions(m, rows)
         if g is None:
             return None
-        of_speeds = []
-        for V in speeds:
-            densities = _densities(spectrum, V, g.power, tuple(gains))
-            if densities is None:
-                return None
-            gaps = tuple((-np.diff(places) / V).tolist())
-            of_speeds.append((densities, gaps, covered_band(spectrum, V, band)))
+        densities = [_densities(S_w, g.power, tuple(gains)) for S_w in tracks if S_w is not None]
+        if any(len(Phi.square_zeros) > len(Phi.square_poles) for Phi in densities[0]):
+            return None  # Φ grows as K falls
+        gaps = [tuple((-np.diff(places) / V).tolist()) for V in speeds]
+        bands = [covered_band(spectrum, V, band) for V in speeds]
         found = []
         for start in range(0, len(g.poles), _TOGETHER):
             some = g[start : start + _TOGETHER]
             q = np.concatenate([some.poles, -some.poles], axis=None)
-            found.append(_squares(some, [contour(*of, q) for of in of_speeds]))
+            paths = [contour(*of, q) for of in zip(densities, gaps, bands, strict=True)]
+            found.append(_squares(some, paths))
     squares, errors = zip(*found, strict=True)
     return np.concatenate(squares), np.concatenate(errors)
 
 
 @lru_cache(maxsize=64)
-def _densities(
-    spectrum: Spectrum, speed: float, power: int, gains: tuple[Gain, ...]
-) -> tuple[Gain, ...] | None:
-    """Φ of every gain; None where it is not rational, or grows towards infinity as K falls."""
-    S_w = rational(spectrum, speed)
-    if S_w is None:
-        return None
+def _densities(S_w: Gain, power: int, gains: tuple[Gain, ...]) -> tuple[Gain, ...]:
+    """Φ of every gain."""
     motion = Gain((4 * np.pi**2) ** power, (0.0,) * power)
-    found = tuple(S_w * motion * gain for gain in gains)
-    if any(len(Phi.square_zeros) > len(Phi.square_poles) for Phi in found):
-        return None
-    return found
+    return tuple(S_w * motion * gain for gain in gains)
 
 
-def _squares(g: PartialFractions, contours: Sequence[Contour]) -> tuple[Array, Array]:
+def _squares(g: PartialFractions, paths: Sequence[Contour]) -> tuple[Array, Array]:
     """Mean squares and relative errors, (D, speeds, gains, outputs)."""
     mirrored = g.response(-g.poles)
-    each = [_integrals(g, mirrored, contour) for contour in contours]
+    each = [_integrals(g, mirrored, path) for path in paths]
     squares, errors, shares = (np.stack(part, axis=1) for part in zip(*each, strict=True))
     largest = (shares / np.abs(squares)[..., np.newaxis, :]).max(axis=(1, 2, 4))
     largest[g.poles.imag < 0] = 0.0  # as large as their conjugates
@@ -108,22 +102,20 @@ def _squares(g: PartialFractions, contours: Sequence[Contour]) -> tuple[Array, A
     return squares, errors
 
 
-def _integrals(
-    g: PartialFractions, mirrored: Complex, contour: Contour
-) -> tuple[Array, Array, Array]:
+def _integrals(g: PartialFractions, mirrored: Complex, path: Contour) -> tuple[Array, Array, Array]:
     """Mean squares, their errors but for those of g, (D, gains, outputs), and the poles' shares.
 
     mirrored : g at -p. Shares : their absolute values, (D, gains, s, outputs).
     """
-    s, N = contour.points, contour.points.size
+    s, N = path.points, path.points.size
     there = g.response(np.concatenate([s, -s]))
-    K = _pairs(there[:, :N], there[:, N:], np.exp(-np.multiply.outer(s, contour.gaps)))
-    parts = (contour.weights * K[:, np.newaxis]).real
-    K = _pairs(mirrored, g.apart(g.residues), np.exp(np.multiply.outer(g.poles, contour.gaps)))
-    half = 0.5 * contour.holds(-g.poles) * contour.density(g.poles)
+    K = _pairs(there[:, :N], there[:, N:], np.exp(-np.multiply.outer(s, path.gaps)))
+    parts = (path.weights * K[:, np.newaxis]).real
+    K = _pairs(mirrored, g.apart(g.residues), np.exp(np.multiply.outer(g.poles, path.gaps)))
+    half = 0.5 * path.holds(-g.poles) * path.density(g.poles)
     shares = np.moveaxis(half, 0, 1)[..., np.newaxis] * K[:, np.newaxis]
-    size, lengths = np.abs(shares), contour.lengths
-    on_panels = np.moveaxis(parts[:, :, -contour.df.size :], 2, 3) / contour.df
+    size, lengths = np.abs(shares), path.lengths
+    on_panels = np.moveaxis(parts[:, :, -path.df.size :], 2, 3) / path.df
     by_panel = on_panels.reshape(*on_panels.shape[:-1], lengths.size, POINTS)
     errors = gauss_errors(by_panel, lengths).sum(axis=-1)
     errors += 10 * _EPSILON * np.abs(parts).sum(axis=2)

@@ -42,8 +42,8 @@ def mean_squares(
 
     Raises
     ------
-    InputError : no speeds, a speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one that is
-        unstable, or in whose output an undamped mode takes part.
+    InputError : no speeds, a speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one
+        that is unstable, or in whose output an undamped mode takes part.
     """
     if not len(speeds):
         raise InputError("speeds: found none; expected at least one, in m/s")
