@@ -34,7 +34,7 @@ from railride.stochastic.gains import Complex, Gain
 from railride.stochastic.quadrature import REACH, distances, gauss_points, graded_panels
 
 POINTS = 10  # on every panel
-RAY = 1 + 0.5j  # direction: away from the weightings' poles, below those of higher modes
+RAY = 1 + 1j  # direction: away from the weightings' poles, below those of higher modes
 _LONGEST, _RATIO = 0.8, 6.0  # panels of the ray: first of ω_2, then from one to the next
 _DECAY = 3.0  # of the longest lag's exponential, over the shortest panel
 _NONE = np.zeros(0, dtype=complex)

@@ -73,6 +73,7 @@ def residue_squares(
         for start in range(0, len(g.poles), _TOGETHER):
             some = g[start : start + _TOGETHER]
             q = np.concatenate([some.poles, -some.poles], axis=None)
+            q = q[q.imag >= 0]  # beside the path
             paths = [contour(*of, q) for of in zip(densities, gaps, bands, strict=True)]
             found.append(_squares(some, paths))
     squares, errors = zip(*found, strict=True)
