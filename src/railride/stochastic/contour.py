@@ -93,12 +93,14 @@ def contour(
 def _usual(
     densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float]
 ) -> Contour:
+    """The contour that most vehicles share, its panels shrinking towards the poles of Φ alone."""
     return _contour(densities, gaps, band, _NONE)
 
 
 def _contour(
     densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float], q: Complex
 ) -> Contour:
+    """The contour with panels that shrink towards the poles of Φ and q, and to the longest lag."""
     corner, lag = 2 * np.pi * band[1], sum(gaps)
     of_Phi = 2j * np.pi * np.concatenate([density.poles for density in densities])
     q = np.concatenate([q, of_Phi, -of_Phi, of_Phi.conj(), -of_Phi.conj()])
