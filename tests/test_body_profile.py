@@ -66,12 +66,6 @@ def test_rigid_values_are_the_moments_about_the_mass_centre():
     assert PROFILE.length == 24.0
 
 
-@pytest.mark.parametrize(("rear", "front"), [(-12, 12), (-8, -6.5), (-9.1, 3), (-7, -6.9)])
-def test_compliance_is_the_integral_of_one_over_EI(rear, front):
-    own = integral(lambda x: 1 / PROFILE.at("bending_stiffness", x), rear, front)
-    assert PROFILE.compliance(rear, front) == pytest.approx(own, rel=1e-12)
-
-
 def test_values_at_a_jump_are_those_ahead_of_it():
     EI = PROFILE.at("bending_stiffness", [[-12, -8.0], [3.0, 12.0], [-10.0, 7.5]])
     assert EI.tolist() == [[2e9, 1e9], [2.5e9, 2e9], [2.5e9, 2.25e9]]
@@ -118,12 +112,12 @@ def test_the_body_of_a_profile_has_its_mass_and_inertia():
     [
         (
             {"mass": 34e3},
-            r"mass: found 34000 kg; expected 32200 kg, the profile's \(leave it out",
+            r"mass: found 34000 kg; expected 32200 kg, that of the profile",
         ),
-        ({"mass_centre": 0.0}, "mass_centre: found 0 m; expected 1.38043 m, the profile's"),
-        ({"length": 24.001}, "length: found 24.001 m; expected 24 m, the profile's"),
+        ({"mass_centre": 0.0}, "mass_centre: found 0 m; expected 1.38043 m, that of the profile"),
+        ({"length": 24.001}, "length: found 24.001 m; expected 24 m, that of the profile"),
         ({"bending_stiffness": 3e9}, "bending_stiffness: found bending_stiffness and a profile"),
-        ({"inertia": "rods"}, "inertia: found 'rods' with a profile; expected \"auto\""),
+        ({"inertia": "rods"}, "inertia: found 'rods' with a mass dis.*; expected \"auto\""),
     ],
 )
 def test_a_body_refuses_what_contradicts_its_profile(changes, message):
@@ -168,7 +162,7 @@ def test_faults_of_a_profile_in_a_file_are_named_by_key(tmp_path):
 def test_a_file_that_contradicts_its_profile_says_both_values(tmp_path):
     path = tmp_path / "coach.toml"
     path.write_text(COACH.replace('"34000 kg"', '"36 t"') + TABLE, encoding="utf-8")
-    with pytest.raises(InputError, match=r"body.mass: found 36000 kg; expected 34000 kg, the prof"):
+    with pytest.raises(InputError, match=r"body.mass: found 36000 kg; expected 34000 kg, that"):
         load_vehicle(path)
 
 

@@ -15,7 +15,15 @@ from vehicles import mirrored, random_vehicle
 
 from railride.bodies import BodyModes, ModalBody
 from railride.modal import modes
-from railride.parameters import Equipment, Load, load_vehicle
+from railride.parameters import (
+    BodyProfile,
+    CarBody,
+    Equipment,
+    Load,
+    PointMass,
+    Segment,
+    load_vehicle,
+)
 from railride.vehicle import VehicleModel, derive_vehicle
 
 MASS, LENGTH = 34e3, 24.0
@@ -52,6 +60,14 @@ def given_modes(payload=()):
     return VehicleModel(replace(vehicle, payload=payload), ModalBody(vehicle.body, found))
 
 
+def unlike(made, N, **changes):
+    body = CarBody.of(made, bending_damping=0.01, **changes)
+    return derive_vehicle(replace(load_vehicle("cati2024"), body=body), N)
+
+
+SEGMENTS = (Segment(5.0, 8e3, mass_centre=0.3), Segment(8.0, 11e3), Segment(11.0, 15e3, 130e3))
+PROFILE = BodyProfile((-12, -7, -7, 12), (3e9, 2e9, 1e9, 3e9), (1500, 1300, 1200, 1600),
+                      point_masses=(PointMass(900.0, -3.0, 200.0),))  # fmt: skip
 TIMOSHENKO = {"shear_stiffness": 4e8, "rotary_inertia": 2800.0}
 LOADS = (Load(6000.0), Load(2000.0, 11.0, 3.0), Load(900.0, -4.0, -4.0))
 BODIES = {
@@ -59,6 +75,12 @@ BODIES = {
     "rods": lambda: derive_vehicle(coach(), 4),
     "halves": lambda: derive_vehicle(coach(), 2),
     "graded": lambda: derive_vehicle(coach(pitch_inertia=1.9e6, mass_centre=0.4), 5),
+    "own segments": lambda: unlike(SEGMENTS, 3, joint_stiffness=(4e8, 3e8)),
+    "profile": lambda: unlike(PROFILE, 6, bending_frequency=9.0),
+    "cut profile": lambda: unlike(PROFILE, 4, cuts=(6.0, -1.0, -7.0)),
+    "two frequencies": lambda: derive_vehicle(
+        coach(bending_frequency=None, bending_frequencies=(9.6, 24.0)), 4
+    ),
     "beam": lambda: derive_vehicle(coach(), body="beam", modes=6),
     "shear beam": lambda: derive_vehicle(coach(**TIMOSHENKO), body="beam", modes=6),
     "one mode": lambda: derive_vehicle(coach(), body="beam", modes=1),
@@ -75,7 +97,7 @@ BODIES |= {
 }
 BODIES["loaded modes"] = lambda: given_modes(LOADS)
 LOADED = {"loaded", "loaded beam", "loaded modes"}
-SYMMETRIC = {"rigid", "rods", "halves", "beam", "shear beam", "one mode"}
+SYMMETRIC = {"rigid", "rods", "halves", "two frequencies", "beam", "shear beam", "one mode"}
 
 
 @cache
@@ -114,7 +136,7 @@ def test_rigid_motions_strain_nothing_and_are_straight_lines(name):
     A = body.free_matrices(values)
     lift, turn = model(name).lift[:n], model(name).pitch()[:n]
     places = [x for x in PLACES if abs(x) <= body.body.length / 2]
-    for reading in ("polygon", "smooth"):
+    for reading in ("polygon", "smooth", "spline"):
         H = rows(name, places, reading)
         assert_allclose(H @ lift, 1, rtol=1e-12)
         assert_allclose(H @ turn, places, atol=1e-11)
@@ -146,7 +168,11 @@ def test_total_mass_mass_centre_and_inertia_are_right(name):
     uniform = body.mass * body.length**2 / 12
     expected = {
         "shear beam": uniform + 2800.0 * body.length,
-        **dict.fromkeys(("rigid", "graded", "given modes", "loaded modes"), body.pitch_inertia),
+        **dict.fromkeys(
+            ("rigid", "graded", "given modes", "loaded modes", "own segments", "profile",
+             "cut profile"),
+            body.pitch_inertia,
+        ),
     }
     assert about == pytest.approx(expected.get(name, uniform), rel=1e-11)
 
@@ -273,11 +299,12 @@ def test_arrays_of_parameters_equal_one_by_one(name):
     """Masses, and positions of the first bogies, over one another's axes."""
     found = model(name)
     (place,) = (p for p in found.parameters if p.symbol.name in ("l_b", "x_b1"))
-    mass = found.vehicle.body.mass * np.array([[0.99], [1.0], [1.02]])
+    of = next(p for p in found.parameters if p.unit == "kg")  # m_c, or that of the first segment
+    name_of, mass = of.symbol.name, of.value * np.array([[0.99], [1.0], [1.02]])
     where = place.value + np.array([0.0, 0.25])
-    many = found.matrices(m_c=mass, **{place.symbol.name: where})
+    many = found.matrices(**{name_of: mass, place.symbol.name: where})
     for i, j in np.ndindex(3, 2):
-        one = found.matrices(m_c=mass[i, 0], **{place.symbol.name: where[j]})
+        one = found.matrices(**{name_of: mass[i, 0], place.symbol.name: where[j]})
         for matrix in ("M", "C", "K", "B_f"):
             among = getattr(many, matrix)
             among = among[i, j] if among.ndim == 4 else among

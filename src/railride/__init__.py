@@ -19,7 +19,7 @@ KMH = 1 / 3.6
 """One kilometre per hour in m/s: ``speed=145 * KMH``."""
 
 _WHERE = {
-    "parameters": ("CarBody", "BodyProfile", "PointMass", "Bogie", "Load", "Equipment",
+    "parameters": ("CarBody", "BodyProfile", "PointMass", "Segment", "Bogie", "Load", "Equipment",
                    "Vehicle", "load_vehicle", "write_vehicle", "shipped_vehicles"),
     "lagrange": ("Coordinate", "Input", "Force", "Lagrangian", "rate"),
     "linear": ("LinearModel", "linearise", "linearise_equations"),

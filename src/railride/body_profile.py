@@ -4,11 +4,9 @@ x is in m forward of the body's middle. Values stand at knots from the rear end 
 are linear between them; a knot that stands twice is a jump. So the integrals over any piece of the
 body are exact:
 
-.. math:: m = \int\mu\,dx, \quad S = \int\mu x\,dx, \quad J = \int(\mu x^2 + \rho I)\,dx, \quad
-          \gamma/M = \int\frac{dx}{EI}
+.. math:: m = \int\mu\,dx, \quad S = \int\mu x\,dx, \quad J = \int(\mu x^2 + \rho I)\,dx
 
-the mass and its first and second moment, with the rotary inertia per length ρI, and the turn of the
-piece under a bending moment of one.
+the mass and its first and second moment, with the rotary inertia per length ρI.
 
 Source: W. Beitz, K.-H. Grote (eds.), Dubbel, chapters Mechanik and Festigkeitslehre.
 """
@@ -166,14 +164,6 @@ class BodyProfile:
                 arm = p.position - about
                 found += p.mass, p.mass * arm, p.mass * arm**2 + p.pitch_inertia
         return float(found[0]), float(found[1]), float(found[2])
-
-    def compliance(self, rear: float, front: float) -> float:
-        """∫ dx/EI between two points (m), rad/(N m): h ln(b/a)/(b - a) for EI from a to b."""
-        x_a, x_b, a, b = self.pieces("bending_stiffness", rear, front)
-        r = (b - a) / (b + a)  # ln(b/a) = 2 artanh r, which keeps its digits where a is near b
-        small = np.abs(r) < 1e-4
-        ratio = np.where(small, 1 + r**2 / 3, np.arctanh(r) / np.where(small, 1.0, r))
-        return float(np.sum((x_b - x_a) * 2 / (a + b) * ratio))
 
 
 def check_profile(values: Mapping[str, Any], prefix: str, faults: Faults) -> None:

@@ -2,8 +2,9 @@
 
 ``[body.profile]`` has a list for each column of :class:`BodyProfile`, or names a ``file`` of these
 columns, headed ``x [m]``, ``bending_stiffness [N m^2]`` and so on; and there is a table
-``[[body.profile.point_masses]]`` for each mass. With a profile, mass, mass centre, pitch inertia
-and length may be left out: they follow.
+``[[body.profile.point_masses]]`` for each mass. A table ``[[segments]]`` is one segment, from the
+front. With a profile or with segments, mass, mass centre, pitch inertia and length may be left out:
+they follow.
 """
 
 from __future__ import annotations
@@ -12,8 +13,10 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from railride.body_checks import check_body, rigid_values
 from railride.body_profile import BodyProfile, PointMass, check_profile
-from railride.car_body import CarBody, check_body, rigid_values
+from railride.body_segments import Segment, check_segment
+from railride.car_body import CarBody
 from railride.errors import Faults
 from railride.quantities import quantity_fields
 from railride.record_tables import note_all_missing, read_column, read_values, written
@@ -34,15 +37,19 @@ def read_body(top: Table, folder: Path, faults: Faults) -> dict[str, Any]:
     inertia = table.text("inertia")
     if inertia is not None:
         values["inertia"] = inertia
-    described = table.table("profile")
+    described, rows = table.table("profile"), top.tables("segments")
     profile = None if described is None else _read_profile(described, folder, faults)
     table.finish()
-    if described is None:
+    if described is None and not rows:
         note_all_missing(table, fields(CarBody), faults)
     if profile is not None:
         values["profile"] = profile
+    before = len(faults.found)
+    segments = [_read_segment(row, faults) for row in rows]
+    if len(faults.found) == before:
+        values["segments"] = tuple(Segment(**segment) for segment in segments)
     check_body(values, table.key(""), faults)
-    return values if profile is None else values | rigid_values(profile)
+    return values | rigid_values(values)
 
 
 def _read_profile(table: Table, folder: Path, faults: Faults) -> BodyProfile | None:
@@ -95,6 +102,15 @@ def _read_point(table: Table, faults: Faults) -> dict[str, Any]:
     return point
 
 
+def _read_segment(table: Table, faults: Faults) -> dict[str, Any]:
+    """Values of one of ``[[segments]]``."""
+    segment = read_values(table, fields(Segment))
+    table.finish()
+    note_all_missing(table, fields(Segment), faults)
+    check_segment(segment, table.key(""), faults)
+    return segment
+
+
 def body_lines(body: CarBody) -> list[str]:
     """The tables that read back as ``body``."""
     lines = ["[body]", *written(body, fields(CarBody))]
@@ -102,4 +118,6 @@ def body_lines(body: CarBody) -> list[str]:
         lines += ["", "[body.profile]", *written(body.profile, fields(BodyProfile))]
         for point in body.profile.point_masses:
             lines += ["", "[[body.profile.point_masses]]", *written(point, fields(PointMass))]
+    for segment in body.segments:
+        lines += ["", "[[segments]]", *written(segment, fields(Segment))]
     return lines

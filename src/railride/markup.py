@@ -18,7 +18,7 @@ from sympy.printing.latex import LatexPrinter
 
 from railride.lagrange import Signal
 
-GREEK = ("theta", "zeta", "mu", "eta", "phi", "kappa", "rho", "alpha", "beta")
+GREEK = ("theta", "zeta", "mu", "ell", "eta", "phi", "kappa", "rho", "alpha", "beta")
 BRACED = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}"  # with at most one pair inside
 LINE = 78  # characters of mathematics that fit on a line, commands counted as one
 

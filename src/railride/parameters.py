@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from railride.body_profile import BodyProfile, PointMass
+from railride.body_segments import Segment
 from railride.body_tables import body_lines, read_body
 from railride.car_body import CarBody
 from railride.errors import Fault, Faults, InputError
@@ -47,6 +48,7 @@ __all__ = [
     "Equipment",
     "Load",
     "PointMass",
+    "Segment",
     "Vehicle",
     "load_vehicle",
     "shipped_vehicles",

@@ -82,9 +82,10 @@ def command(model: VehicleModel, form: str, nonlinear: bool = False) -> str:
     words = [f"railride derive --vehicle {name if shipped else 'FILE'}"]
     words.append(model.body.options)
     given = load_vehicle(name).body if shipped else body
-    if body.joint_stiffness != given.joint_stiffness:
-        words.append(f"--joint-stiffness {body.joint_stiffness:.10g}")
-    elif body.bending_frequency != given.bending_frequency:
+    stiffness = body.joint_stiffness  # the option gives one number; a list is the vehicle's own
+    if isinstance(stiffness, float) and stiffness != given.joint_stiffness:
+        words.append(f"--joint-stiffness {stiffness:.10g}")
+    elif body.bending_frequency not in (None, given.bending_frequency):
         words.append(f"--bending-frequency {body.bending_frequency:.10g}")
     if body.bending_damping != given.bending_damping:
         words.append(f"--bending-damping {body.bending_damping:.10g}")

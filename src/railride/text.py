@@ -13,8 +13,8 @@ from railride.lagrange import Coordinate, Lagrangian, Signal
 from railride.linear import LinearModel
 
 DOTS = {0: "", 1: "\N{COMBINING DOT ABOVE}", 2: "\N{COMBINING DIAERESIS}"}
-GREEK = {"theta": "θ", "zeta": "ζ", "mu": "μ", "eta": "η", "phi": "φ", "kappa": "κ", "rho": "ρ",
-         "alpha": "α", "beta": "β"}  # fmt: skip
+GREEK = {"theta": "θ", "zeta": "ζ", "mu": "μ", "ell": "ℓ", "eta": "η", "phi": "φ", "kappa": "κ",
+         "rho": "ρ", "alpha": "α", "beta": "β"}  # fmt: skip
 WIDTH = 100
 
 

@@ -207,7 +207,8 @@ class VehicleModel:
         Parameters
         ----------
         at : m forward of the car body's middle.
-        reading : "smooth" or "polygon"; they agree on a rigid body.
+        reading : "smooth", "polygon" or "spline" (see :mod:`railride.bodies.floors`); they agree
+            on bodies that are not made of segments.
 
         Raises
         ------
@@ -340,7 +341,7 @@ def _bent(
     """The car body with what is given in place of its own bending."""
     if frequency is not None or stiffness is not None:
         body = replace(body, bending_frequency=frequency, joint_stiffness=stiffness,
-                       bending_stiffness=None)  # fmt: skip
+                       bending_frequencies=None, bending_stiffness=None)  # fmt: skip
     if damping is not None:
         body = replace(body, bending_damping=damping, joint_damping=None, rayleigh_mass=0.0,
                        rayleigh_stiffness=0.0, mode_damping=None)  # fmt: skip

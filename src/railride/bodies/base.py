@@ -18,7 +18,7 @@ from railride.numeric import Array, MatrixFunction, symmetric_eigenvalues
 from railride.parameters import CarBody, Load
 from railride.toml_tables import finite_number
 
-FLOORS = ("smooth", "polygon")
+FLOORS = ("smooth", "polygon", "spline")
 
 
 @dataclass(frozen=True)

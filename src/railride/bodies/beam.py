@@ -13,15 +13,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Self
 
+import numpy as np
 import sympy as sp
 from sympy import pi, sqrt
 
 from railride.bodies import slender_beam
 from railride.bodies.base import Parameter
 from railride.bodies.body_modes import BodyModes
+from railride.bodies.cuts import L
+from railride.bodies.joints import EI, f_bending
 from railride.bodies.modal import ModalBody
 from railride.bodies.rigid import m_c
-from railride.bodies.segments import EI, L, f_bending
 from railride.bodies.structural_damping import mode_frequency
 from railride.bodies.uniform_beam import UniformBeam
 from railride.errors import Faults
@@ -149,17 +151,24 @@ def _refuse_other_bodies(body: CarBody) -> None:
     """Refuse what a uniform beam cannot be made of."""
     faults = Faults("body beam")
     if body.bending_frequency is None and body.bending_stiffness is None:
-        joint = body.joint_stiffness
-        found = "nothing of its bending" if joint is None else f"a joint_stiffness of {joint:g}"
-        faults.add("body", found, "a bending frequency or a bending stiffness EI",
-                   "a joint stiffness belongs to segments")  # fmt: skip
+        others = {name: getattr(body, name) for name in ("joint_stiffness", "bending_frequencies")}
+        found = [f"a {name} of {_listed(value)}" for name, value in others.items() if value]
+        faults.add("body", " and ".join(found) or "nothing of its bending", "a bending frequency "
+                   "or a bending stiffness EI", "joint stiffnesses and several frequencies belong "
+                   "to segments")  # fmt: skip
     if body.joint_damping is not None:
-        faults.add("body.joint_damping", f"{body.joint_damping:g} N m s/rad", "a damping ratio of "
-                   "the first bending mode", "a joint's damping belongs to segments")  # fmt: skip
-    if body.profile is not None:
-        faults.add("body.profile", "data along the body", "none: the beam is uniform",
+        faults.add("body.joint_damping", f"{_listed(body.joint_damping)} N m s/rad", "a damping "
+                   "ratio of the first bending mode", "a joint's damping belongs to "
+                   "segments")  # fmt: skip
+    if body.profile is not None or body.segments:
+        faults.add("body.profile" if body.profile is not None else "segments",
+                   "data along the body", "none: the beam is uniform",
                    "take segments or fe")  # fmt: skip
     if body.mass_centre:
         faults.add("body.mass_centre", f"{body.mass_centre:g} m", "it at the middle of a uniform "
                    "beam", "take segments, or fe with a profile")  # fmt: skip
     faults.raise_if_any()
+
+
+def _listed(values: float | tuple[float, ...]) -> str:
+    return ", ".join(f"{value:g}" for value in np.ravel(values))

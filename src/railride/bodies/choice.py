@@ -53,7 +53,8 @@ def body_model(
         return BeamBody.of(body, MODES if modes is None else int(modes))
     count = segments
     if count is None:
-        count = SEGMENTS if kind == "segments" or (kind is None and body.bends) else 1
+        own = SEGMENTS if body.joints is None else body.joints + 1
+        count = own if kind == "segments" or (kind is None and body.bends) else 1
     return RigidBody(body) if count == 1 else SegmentedBody(body, int(count))
 
 

@@ -88,7 +88,7 @@ def bode(
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    given.choice("--floor", floor, ("smooth", "polygon"))
+    given.choice("--floor", floor, options.FLOORS)
     speeds = [given.positive("--speed", text, "km/h") for text in speed or ("200",)]
     places = [given.number("--at", text, "m") for text in at or ("0",)]
     f = _frequencies(given, frequencies, {"--from": lowest, "--to": highest, "--points": points})

@@ -84,7 +84,7 @@ def comfort_map(
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    given.choice("--floor", floor, ("smooth", "polygon"))
+    given.choice("--floor", floor, options.FLOORS)
     speeds = _speeds(given, speed, {"--from": lowest, "--to": highest, "--points": points})
     places = [given.number("--at", text, "m") for text in at] if at else None
     output.check_output(given.faults, "--output", to)

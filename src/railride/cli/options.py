@@ -15,15 +15,17 @@ if TYPE_CHECKING:
     pass
 
 FORMATS = ("table", "json", "csv")
+FLOORS = ("smooth", "polygon", "spline")
 LARGEST_SEED = 2**32 - 1
 REPEATED = ("--speed", "--at")  # options that may be given several times
 
 TRACK, BODY, RESULT = "The track", "The vehicle and its body", "The result"
 
 FloorOption = Annotated[
-    str, typer.Option("--floor", metavar="smooth|polygon", rich_help_panel=BODY,
-                      help="Where the floor is: on the smooth line through the segments, or on "
-                      "their polygon, as in the paper.")]  # fmt: skip
+    str, typer.Option("--floor", metavar="|".join(FLOORS), rich_help_panel=BODY,
+                      help="Where the floor is: on the smooth line through the segments; on their "
+                      "polygon, as in the paper; or on a spline, nearer to the beam off the "
+                      "middle.")]  # fmt: skip
 FormatOption = Annotated[
     str, typer.Option("--format", metavar="|".join(FORMATS), rich_help_panel=RESULT,
                       help="How the result is written.")]  # fmt: skip

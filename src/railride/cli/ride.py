@@ -125,7 +125,7 @@ def ride(
     asked = [name for name, wanted in (("travel", travel), ("bands", bands), ("shares", shares))
              if wanted]  # fmt: skip
     given.choice("--format", form, FORMATS)
-    given.choice("--floor", floor, ("smooth", "polygon"))
+    given.choice("--floor", floor, options.FLOORS)
     speeds = [given.positive("--speed", text, "km/h") for text in speed or ("145", "200")]
     places = [given.number("--at", text, "m") for text in at or ("0",)]
     rated = given.positive("--length", length, "m")
