@@ -169,8 +169,15 @@ def test_total_mass_mass_centre_and_inertia_are_right(name):
     expected = {
         "shear beam": uniform + 2800.0 * body.length,
         **dict.fromkeys(
-            ("rigid", "graded", "given modes", "loaded modes", "own segments", "profile",
-             "cut profile"),
+            (
+                "rigid",
+                "graded",
+                "given modes",
+                "loaded modes",
+                "own segments",
+                "profile",
+                "cut profile",
+            ),
             body.pitch_inertia,
         ),
     }
