@@ -68,7 +68,8 @@ class ComparedBody:
         """What it is, in a few words."""
         if self.body == "rigid":
             return "rigid"
-        return f"{self.segments} segments" if self.segments else f"{self.body}, {self.modes} modes"
+        modes = f"{self.modes} mode" + ("s" if self.modes != 1 else "")
+        return f"{self.segments} segments" if self.segments else f"{self.body}, {modes}"
 
 
 @dataclass(frozen=True, eq=False)
