@@ -66,7 +66,7 @@ def compare(
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    given.choice("--floor", floor, ("smooth", "polygon"))
+    given.choice("--floor", floor, options.FLOORS)
     cut = [given.whole("--segments", n, 1, bodies.MOST_SEGMENTS) for n in segments or ()]
     bent = [given.whole("--modes", n, 1, bodies.MOST_MODES) for n in modes or ()]
     frequency = given.positive("--bending-frequency", bending_frequency, "Hz")
