@@ -42,8 +42,8 @@ def hull():
     """A beam that also bends sideways and twists: heights at its left and right side.
 
     Each node has the pitch, sideways motion and yaw of the centre line and the heights of the two
-    sides, whose mean is the centre line's and whose difference is the roll. Heights count
-    downwards. A mass centre 0.5 m off the axis couples roll and sideways motion.
+    sides, whose mean is the centre line's and whose difference is the roll. That of the left
+    counts downwards. A mass centre 0.5 m off the axis couples roll and sideways motion.
     """
     n, a = ELEMENTS + 1, 1.4
     M_z, K_z = beam_matrices()
@@ -61,13 +61,13 @@ def hull():
     M[z : z + y, z : z + y], K[z : z + y, z : z + y] = M_y, K_y
     M[z + y :, z + y :], K[z + y :, z + y :] = J * mean, rod
     M[z : z + y : 2, z + y :] = M[z + y :, z : z + y : 2] = 0.5 * MU * mean
-    # From (height, roll) of the centre line to the downward heights of the two sides.
+    # From the heights of the two sides, the left one downwards, to height and roll.
     to = np.eye(z + y + roll)
     heights, rolls = np.arange(0, z, 2), np.arange(z + y, z + y + roll)
-    to[heights, heights], to[heights, rolls] = -0.5, -0.5
-    to[rolls, heights], to[rolls, rolls] = 1 / (2 * a), -1 / (2 * a)
+    to[heights, heights], to[heights, rolls] = -0.5, 0.5
+    to[rolls, heights], to[rolls, rolls] = -1 / (2 * a), -1 / (2 * a)
     x = np.concatenate([*[np.repeat(np.linspace(-L / 2, L / 2, n), 2)] * 2,
                         np.linspace(-L / 2, L / 2, n)])  # fmt: skip
     vertical = np.zeros(len(x))
-    vertical[heights] = vertical[rolls] = -1
+    vertical[heights], vertical[rolls] = -1, 1
     return to.T @ M @ to, to.T @ K @ to, x, vertical
