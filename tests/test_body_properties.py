@@ -11,9 +11,14 @@ import pytest
 import scipy.integrate
 import scipy.linalg
 from numpy.testing import assert_allclose
+from outside_bodies import MASS as HULL
+from outside_bodies import hull
 from vehicles import mirrored, random_vehicle
 
 from railride.bodies import BodyModes, ModalBody
+from railride.bodies.matrices import BodyMatrices
+from railride.bodies.outside import outside_modes
+from railride.body_sources import Elements
 from railride.modal import modes
 from railride.parameters import (
     BodyProfile,
@@ -60,9 +65,19 @@ def given_modes(payload=()):
     return VehicleModel(replace(vehicle, payload=payload), ModalBody(vehicle.body, found))
 
 
-def unlike(made, N, **changes):
-    body = CarBody.of(made, bending_damping=0.01, **changes)
-    return derive_vehicle(replace(load_vehicle("cati2024"), body=body), N)
+def unlike(made, N, *, body=None, modes=None, **changes):
+    own = CarBody.of(made, bending_damping=0.01, **changes)
+    vehicle = replace(load_vehicle("cati2024"), body=own)
+    return derive_vehicle(vehicle, N, body=body, modes=modes)
+
+
+def of_matrices():
+    """A body from outside: of the matrices of a beam that also moves sideways."""
+    M, K, x, vertical = hull()
+    given = BodyMatrices("hull", M * MASS / HULL, K * MASS / HULL, x, vertical)
+    body = replace(coach().body, pitch_inertia=MASS * LENGTH**2 / 12)
+    vehicle = replace(coach(), body=body)
+    return VehicleModel(vehicle, ModalBody(body, outside_modes(given.point_modes(5), body)))
 
 
 SEGMENTS = (Segment(5.0, 8e3, mass_centre=0.3), Segment(8.0, 11e3), Segment(11.0, 15e3, 130e3))
@@ -96,8 +111,19 @@ BODIES |= {
     "hung beam": lambda: derive_vehicle(replace(coach(), equipment=HUNG), body="beam", modes=5),
 }
 BODIES["loaded modes"] = lambda: given_modes(LOADS)
+ELEMENTS = {
+    "elements": lambda: derive_vehicle(coach(), body="fe", modes=6),
+    "shear elements": lambda: derive_vehicle(coach(**TIMOSHENKO), body="fe", modes=6),
+    "profile of elements": lambda: unlike(PROFILE, None, body="fe", modes=5),
+    "reduced elements": lambda: unlike(
+        PROFILE, None, body="fe", modes=5, elements=Elements(40, (-8.75, 0.0, 8.75))
+    ),
+    "modes of matrices": of_matrices,
+}
+BODIES |= ELEMENTS
 LOADED = {"loaded", "loaded beam", "loaded modes"}
-SYMMETRIC = {"rigid", "rods", "halves", "two frequencies", "beam", "shear beam", "one mode"}
+SYMMETRIC = {"rigid", "rods", "halves", "two frequencies", "beam", "shear beam", "one mode",
+             "elements", "shear elements"}  # fmt: skip
 
 
 @cache
@@ -166,21 +192,10 @@ def test_total_mass_mass_centre_and_inertia_are_right(name):
     assert lift @ M @ turn == pytest.approx(body.mass * body.mass_centre, abs=1e-8 * body.mass)
     about = turn @ M @ turn - body.mass * body.mass_centre**2
     uniform = body.mass * body.length**2 / 12
-    expected = {
-        "shear beam": uniform + 2800.0 * body.length,
-        **dict.fromkeys(
-            (
-                "rigid",
-                "graded",
-                "given modes",
-                "loaded modes",
-                "own segments",
-                "profile",
-                "cut profile",
-            ),
-            body.pitch_inertia,
-        ),
-    }
+    given = ["rigid", "graded", "given modes", "loaded modes", "own segments", "profile",
+             "cut profile", "profile of elements", "reduced elements"]  # fmt: skip
+    shearing = dict.fromkeys(("shear beam", "shear elements"), uniform + 2800.0 * body.length)
+    expected = dict.fromkeys(given, body.pitch_inertia) | shearing
     assert about == pytest.approx(expected.get(name, uniform), rel=1e-11)
 
 

@@ -18,7 +18,7 @@ SOURCE = Path(railride.__file__).parent
 # From the parts that know nothing of the rest to those that use everything.
 ORDER = """
 errors files units tables toml_tables quantities
-body_profile body_segments body_checks car_body vehicle_data
+body_profile body_segments body_sources body_checks car_body vehicle_data
 record_tables body_tables parameters
 lagrange jets linear halfbody numeric
 plausibility bodies carried running_gear parameter_values vehicle

@@ -4,7 +4,8 @@
 columns, headed ``x [m]``, ``bending_stiffness [N m^2]`` and so on; and there is a table
 ``[[body.profile.point_masses]]`` for each mass. A table ``[[segments]]`` is one segment, from the
 front. With a profile or with segments, mass, mass centre, pitch inertia and length may be left out:
-they follow.
+they follow. ``[body.elements]`` and ``[body.modes]`` have the keys of :class:`Elements` and
+:class:`ModeFiles`; files lie beside the parameter file.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any
 from railride.body_checks import check_body, rigid_values
 from railride.body_profile import BodyProfile, PointMass, check_profile
 from railride.body_segments import Segment, check_segment
+from railride.body_sources import Elements, ModeFiles, check_mode_files
 from railride.car_body import CarBody
 from railride.errors import Faults
 from railride.quantities import quantity_fields
@@ -39,6 +41,7 @@ def read_body(top: Table, folder: Path, faults: Faults) -> dict[str, Any]:
         values["inertia"] = inertia
     described, rows = table.table("profile"), top.tables("segments")
     profile = None if described is None else _read_profile(described, folder, faults)
+    values |= _read_sources(table, folder, faults)
     table.finish()
     if described is None and not rows:
         note_all_missing(table, fields(CarBody), faults)
@@ -50,6 +53,27 @@ def read_body(top: Table, folder: Path, faults: Faults) -> dict[str, Any]:
         values["segments"] = tuple(Segment(**segment) for segment in segments)
     check_body(values, table.key(""), faults)
     return values | rigid_values(values)
+
+
+def _read_sources(table: Table, folder: Path, faults: Faults) -> dict[str, Any]:
+    """The finite elements, and the files of a body from outside."""
+    found: dict[str, Any] = {}
+    elements, files = table.table("elements"), table.table("modes")
+    if elements is not None:
+        number = elements.whole("number")
+        values = read_values(elements, fields(Elements))
+        elements.finish()
+        found["elements"] = Elements(number, **values)
+    if files is not None:
+        before = len(faults.found)
+        texts = {item.name: files.text(item.name) for item in fields(ModeFiles)}
+        files.finish()
+        check_mode_files(texts, files.key(""), faults)
+        if len(faults.found) == before:
+            paths = {name: str((folder / path).resolve())
+                     for name, path in ModeFiles(**texts).paths.items()}  # fmt: skip
+            found["mode_files"] = ModeFiles(**texts | paths)
+    return found
 
 
 def _read_profile(table: Table, folder: Path, faults: Faults) -> BodyProfile | None:
@@ -118,6 +142,10 @@ def body_lines(body: CarBody) -> list[str]:
         lines += ["", "[body.profile]", *written(body.profile, fields(BodyProfile))]
         for point in body.profile.point_masses:
             lines += ["", "[[body.profile.point_masses]]", *written(point, fields(PointMass))]
+    if body.elements is not None:
+        lines += ["", "[body.elements]", *written(body.elements, fields(Elements))]
+    if body.mode_files is not None:
+        lines += ["", "[body.modes]", *written(body.mode_files, fields(ModeFiles))]
     for segment in body.segments:
         lines += ["", "[[segments]]", *written(segment, fields(Segment))]
     return lines

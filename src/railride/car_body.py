@@ -15,6 +15,7 @@ from typing import Any
 from railride.body_checks import STIFFNESSES, check_body, joint_count, rigid_values
 from railride.body_profile import BodyProfile
 from railride.body_segments import Segment
+from railride.body_sources import Elements, ModeFiles
 from railride.errors import Faults
 from railride.quantities import EITHER, LIST, checked_numbers, is_list, si
 from railride.toml_tables import shown
@@ -44,6 +45,8 @@ class CarBody:
     cuts: m forward of the middle, from the front, where a body with a profile is cut into segments;
     without them the segments are of equal length.
     segments: from the front, see :meth:`of`.
+    elements: how finite elements cut the body; default 128 of them.
+    mode_files: natural modes or matrices from outside, in place of the body's own finite elements.
 
     Raises InputError, with all faults at once, for values that no car body can have.
 
@@ -76,6 +79,8 @@ class CarBody:
     profile: BodyProfile | None = None
     cuts: tuple[float, ...] | None = field(default=None, metadata=si("m", many=LIST))
     segments: tuple[Segment, ...] = ()
+    elements: Elements | None = None
+    mode_files: ModeFiles | None = None
 
     def __post_init__(self) -> None:
         faults = Faults("car body")
@@ -84,6 +89,10 @@ class CarBody:
             values["profile"] = self.profile
         elif self.profile is not None:
             faults.add("profile", shown(self.profile), "a BodyProfile")
+        for name, kind in (("elements", Elements), ("mode_files", ModeFiles)):
+            value = getattr(self, name)
+            if value is not None and not isinstance(value, kind):
+                faults.add(name, shown(value), f"{kind.__name__}")
         if is_list(self.segments) and all(isinstance(s, Segment) for s in self.segments):
             values["segments"] = self.segments
             object.__setattr__(self, "segments", tuple(self.segments))

@@ -46,12 +46,12 @@ def note_missing(where: str, item: Field[Any], faults: Faults) -> None:
 
 
 def written(record: DataclassInstance, items: Sequence[Field[Any]]) -> list[str]:
-    """``key = value`` for each field that has a text or a quantity other than its default."""
+    """``key = value`` for each text, whole number or quantity that is not the default."""
     lines = []
     for item in items:
         value = getattr(record, item.name)
         unit = item.metadata.get("unit")
-        if value == item.default or not (unit is not None or isinstance(value, str)):
+        if value == item.default or not (unit is not None or isinstance(value, str | int)):
             continue
         if isinstance(value, str):
             text = toml_text(value)

@@ -289,15 +289,16 @@ def derive_vehicle(
     joint_stiffness: float | None = None,
     bending_damping: float | None = None,
 ) -> VehicleModel:
-    """The model of a vehicle, its car body rigid, cut into segments, or a beam.
+    """The model of a vehicle, its car body rigid, of segments, a beam, or of finite elements.
 
     Parameters
     ----------
     vehicle : the parameters; or the name of a shipped vehicle or a file, to be loaded.
     segments : N ≥ 1; 1 is the rigid body. Default: 4, or 1 where no bending stiffness is known.
-    body : "rigid", "segments" or "beam" (Euler-Bernoulli's; Timoshenko's where the vehicle has a
-        shear stiffness or rotary inertia). Default: as the segments say.
-    modes : how many bending modes a beam has, default 10.
+    body : "rigid", "segments", "beam" (Euler-Bernoulli's; Timoshenko's where the vehicle has a
+        shear stiffness or rotary inertia) or "fe" (finite elements, the vehicle's own or from
+        outside). Default: as the segments say, or fe where the vehicle names modes from outside.
+    modes : how many bending modes a beam or finite elements have, default 10.
     bending_frequency, joint_stiffness : Hz or N m/rad, instead of what the vehicle says.
     bending_damping : structural damping ratio of the first bending mode, instead of the vehicle's.
 
@@ -325,7 +326,8 @@ def derive_vehicle(
     }
     vehicle = replace(vehicle, body=_bent(vehicle.body, *given.values()))
     try:
-        model = body_model(vehicle.body, body, segments, modes)
+        attachments = [bogie.position for bogie in vehicle.bogies]
+        model = body_model(vehicle.body, body, segments, modes, attachments)
     except InputError as error:
         raise InputError(f"{vehicle.name}: {error}") from None
     remarks = [*doubts(vehicle), *(f"{vehicle.name}: {remark}" for remark in model.remarks)]

@@ -134,23 +134,32 @@ def beam_modes(body: CarBody, count: int = MODES) -> BodyModes:
     >>> beam_modes(coach, 3).frequencies.round(2).tolist()
     [9.6, 26.46, 51.88]
     """
-    _refuse_other_bodies(body)
+    refuse_other_bodies(body)
     beam = UniformBeam(count, body.mass, body.length, body.bending_frequency,
                        body.bending_stiffness, body.shear_stiffness,
                        body.rotary_inertia or None)  # fmt: skip
-    own = body.mass * body.length**2 / 12 + body.rotary_inertia * body.length
-    given, said = body.pitch_inertia, list[str]()
-    if abs(own - given) > 1e-3 * given:
-        said.append(f"the car body's pitch inertia of {given:.4g} kg m^2 is not used: a uniform "
-                    f"beam has {own:.4g} kg m^2")  # fmt: skip
-    return BodyModes(body.mass, 0.0, own, body.length, beam.frequencies, None, beam.shapes, "beam",
-                     beam.slopes, remarks=tuple(said))  # fmt: skip
+    inertia = body.mass * body.length**2 / 12 + body.rotary_inertia * body.length
+    return BodyModes(body.mass, 0.0, inertia, body.length, beam.frequencies, None, beam.shapes,
+                     "beam", beam.slopes, remarks=inertia_remarks(body, inertia))  # fmt: skip
 
 
-def _refuse_other_bodies(body: CarBody) -> None:
-    """Refuse what a uniform beam cannot be made of."""
-    faults = Faults("body beam")
-    if body.bending_frequency is None and body.bending_stiffness is None:
+def inertia_remarks(body: CarBody, own: float) -> tuple[str, ...]:
+    """That a uniform beam of pitch inertia ``own`` (kg m²) has not the one that was given."""
+    given = body.pitch_inertia
+    if abs(own - given) <= 1e-3 * given:
+        return ()
+    remark = (
+        f"the car body's pitch inertia of {given:.4g} kg m^2 is not used: a uniform beam has "
+        f"{own:.4g} kg m^2"
+    )
+    return (remark,)
+
+
+def refuse_other_bodies(body: CarBody, kind: str = "beam") -> None:
+    """Refuse what a beam cannot be made of; one of finite elements ("fe") may have a profile."""
+    faults = Faults(f"body {kind}")
+    shaped = kind == "fe" and body.profile is not None
+    if not shaped and body.bending_frequency is None and body.bending_stiffness is None:
         others = {name: getattr(body, name) for name in ("joint_stiffness", "bending_frequencies")}
         found = [f"a {name} of {_listed(value)}" for name, value in others.items() if value]
         faults.add("body", " and ".join(found) or "nothing of its bending", "a bending frequency "
@@ -160,13 +169,19 @@ def _refuse_other_bodies(body: CarBody) -> None:
         faults.add("body.joint_damping", f"{_listed(body.joint_damping)} N m s/rad", "a damping "
                    "ratio of the first bending mode", "a joint's damping belongs to "
                    "segments")  # fmt: skip
-    if body.profile is not None or body.segments:
-        faults.add("body.profile" if body.profile is not None else "segments",
-                   "data along the body", "none: the beam is uniform",
+    if body.segments:
+        other = "a uniform beam or a profile" if kind == "fe" else "a uniform beam"
+        faults.add("segments", "rigid segments", other, "take segments")
+    if body.profile is not None and not shaped:
+        faults.add("body.profile", "data along the body", "none: the beam is uniform",
                    "take segments or fe")  # fmt: skip
-    if body.mass_centre:
+    if body.mass_centre and not shaped:
         faults.add("body.mass_centre", f"{body.mass_centre:g} m", "it at the middle of a uniform "
                    "beam", "take segments, or fe with a profile")  # fmt: skip
+    for name in ("shear_stiffness", "rotary_inertia"):
+        if shaped and getattr(body, name):
+            faults.add(f"body.{name}", f"{getattr(body, name):g} beside a profile", f"{name} in "
+                       "the profile, along the body")  # fmt: skip
     faults.raise_if_any()
 
 

@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from railride.bodies.base import BodyModel
 from railride.bodies.beam import MODES, BeamBody
+from railride.bodies.fe import fe_body
 from railride.bodies.rigid import RigidBody
 from railride.bodies.segments import SegmentedBody
 from railride.errors import Faults
 from railride.parameters import CarBody
 
-KINDS = ("rigid", "segments", "beam")
-MODAL = ("beam",)  # those that are made of modes
+KINDS = ("rigid", "segments", "beam", "fe")
+MODAL = ("beam", "fe")  # those that are made of modes
 SEGMENTS = 4  # unless the user says otherwise
 MOST_MODES = 100  # of a car body: the highest is then at some 40 kHz
 
 
 def body_model(
-    body: CarBody, kind: str | None = None, segments: int | None = None, modes: int | None = None
+    body: CarBody,
+    kind: str | None = None,
+    segments: int | None = None,
+    modes: int | None = None,
+    attachments: Sequence[float] = (),
 ) -> BodyModel:
     """The model of a car body.
 
     Parameters
     ----------
-    kind : one of :data:`KINDS`; default: segments, or rigid where no bending is known.
+    kind : one of :data:`KINDS`; default: fe for modes from outside, else segments, or rigid where
+        no bending is known.
     segments : N ≥ 1 rigid segments; 1 is the rigid body. Default 4.
-    modes : how many bending modes a beam has. Default 10.
+    modes : how many bending modes a beam or finite elements have. Default 10, or all that a table
+        from outside holds.
+    attachments : places (m) at which modes from outside must be known.
 
     Raises
     ------
@@ -41,6 +50,8 @@ def body_model(
     _check_number("segments", segments, None, faults)
     _check_number("modes", modes, MOST_MODES, faults)
     faults.raise_if_any()
+    if kind is None and segments is None and body.mode_files is not None:
+        kind = "fe"
     if modes is not None and kind not in MODAL:
         faults.add("modes", f"{modes} of a body that is not made of them",
                    f"body {' or '.join(MODAL)} with it")  # fmt: skip
@@ -51,6 +62,8 @@ def body_model(
     faults.raise_if_any()
     if kind == "beam":
         return BeamBody.of(body, MODES if modes is None else int(modes))
+    if kind == "fe":
+        return fe_body(body, None if modes is None else int(modes), attachments)
     count = segments
     if count is None:
         own = SEGMENTS if body.joints is None else body.joints + 1

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from railride.bodies.body_modes import BodyModes
 from railride.bodies.elements import NEAREST, SAME, BeamElements
@@ -26,7 +25,6 @@ def element_modes(
     *,
     elements: int | None = None,
     interfaces: Sequence[float] = (),
-    damping: ArrayLike = 0.0,
 ) -> BodyModes:
     """Free-free modes of a car body of beam elements, its own or those of a reduced body.
 
@@ -40,7 +38,6 @@ def element_modes(
         read, for a Craig–Bampton reduction to their heights and ``count + 2 - len(interfaces)``
         modes with these held: static forces there bend the body exactly. None: the lowest
         ``count`` modes of the elements themselves.
-    damping : ratios of the modes, one or (count,).
 
     Raises
     ------
@@ -61,11 +58,14 @@ def element_modes(
     squares, found, products = beam.modes(motions[:, 2:])
     polynomials = beam.heights(found[:, 2:])
     slopes = polynomials.derivative()
+    centre = profile.mass_centre
     return BodyModes(
-        profile.mass, profile.mass_centre, profile.pitch_inertia, profile.length,
-        np.sqrt(squares) / (2 * np.pi), np.broadcast_to(damping, count),
+        profile.mass, centre if abs(centre) > SAME * profile.length else 0.0,
+        profile.pitch_inertia, profile.length,
+        np.sqrt(squares) / (2 * np.pi), None,
         lambda x: np.moveaxis(polynomials(x), -1, 0), "fe",
         slopes=lambda x: np.moveaxis(slopes(x), -1, 0), products=products,
+        knots=tuple(beam.nodes[1:-1].tolist()),
         remarks=_remarks(squares, own[2:]) if places else (),
     )  # fmt: skip
 

@@ -66,7 +66,8 @@ def _columns(table: NumberTable, faults: Faults) -> tuple[Column, list[Column], 
     places, masses = table.find("x"), table.find("point_mass")
     if len(places) != 1 or len(masses) > 1:
         faults.add("header", f"{len(places)} columns x and {len(masses)} columns point_mass",
-                   "one headed x [m], and at most one point_mass [kg]")  # fmt: skip
+                   "one headed x [m], and at most one point_mass [kg]",
+                   "head the modes by names, such as mode 1, not by numbers")  # fmt: skip
         faults.raise_if_any()
     modes = [column for column in table.columns if column not in (*places, *masses)]
     if not modes:

@@ -48,8 +48,7 @@ def outside_modes(
     Parameters
     ----------
     points : the modes in points along the body.
-    body : whose mass, mass centre, pitch inertia and length they must fit within 1 %, and whose
-        bending damping they take where they come without.
+    body : whose mass, mass centre, pitch inertia and length they must fit within 1 %.
     attachments : places on the body, m, that the points must cover.
     count : how many flexible modes are kept, from the lowest; None: all.
 
@@ -72,13 +71,11 @@ def outside_modes(
     if not FIRST[0] <= hertz[0] <= FIRST[1]:
         remarks.append(f"the first bending of the car body is at {hertz[0]:.3g} Hz: is a unit "
                        "wrong?")  # fmt: skip
-    zeta = body.bending_damping * hertz / hertz[0]
-    if points.damping is not None:
-        zeta = points.damping[points.flexible]
+    zeta = None if points.damping is None else points.damping[points.flexible]
     along, slopes = _interpolated(points.x, shapes)
     modes = BodyModes(
         body.mass, body.mass_centre, body.pitch_inertia, body.length, hertz, zeta, along, "modes",
-        slopes=slopes, remarks=tuple(remarks),
+        slopes=slopes, knots=tuple(points.x[1:-1].tolist()), remarks=tuple(remarks),
     )  # fmt: skip
     return modes if count is None else modes.first(count)
 

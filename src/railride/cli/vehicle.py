@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from railride.parameters import Vehicle
     from railride.vehicle import VehicleModel
 
-BODIES = ("rigid", "segments", "beam")
-MODAL = ("beam",)  # those that are made of modes
+BODIES = ("rigid", "segments", "beam", "fe")
+MODAL = ("beam", "fe")  # those that are made of modes
 DEFAULT = "cati2024"
 MOST_SEGMENTS = 1000  # derived in minutes; more is a slip of the keys
 MOST_MODES = 100  # likewise
@@ -30,10 +30,12 @@ SegmentsOption = Annotated[
                              "bending is known.")]  # fmt: skip
 BodyOption = Annotated[
     str | None, typer.Option("--body", metavar="|".join(BODIES), rich_help_panel=BODY,
-                             help="The kind of car body; default segments.")]  # fmt: skip
+                             help="The kind of car body; default segments, or fe of "
+                             "a vehicle with modes from outside.")]  # fmt: skip
 ModesOption = Annotated[
     str | None, typer.Option("--modes", metavar="N", rich_help_panel=BODY,
-                             help="Bending modes of a beam; default 10.")]  # fmt: skip
+                             help="Bending modes of a beam or finite elements; "
+                             "default 10.")]  # fmt: skip
 FrequencyOption = Annotated[
     str | None, typer.Option("--bending-frequency", metavar="HZ", rich_help_panel=BODY,
                              help="Calibrate the body to this free-free first bending "
@@ -120,7 +122,7 @@ takes_vehicle = grouped(choice=VehicleChoice)
 
 def _refuse_unknown_bending(found: Vehicle, N: int | None, body: str | None) -> None:
     """Several segments need a stiffness between them."""
-    if found.body.bends:
+    if found.body.bends or (body in (None, "fe") and found.body.mode_files is not None):
         return
     if (N or 1) > 1 or (N is None and body not in (None, "rigid")):
         asked = f"--segments {N}" if N else f"--body {body}"
