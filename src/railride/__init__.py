@@ -19,8 +19,9 @@ KMH = 1 / 3.6
 """One kilometre per hour in m/s: ``speed=145 * KMH``."""
 
 _WHERE = {
-    "parameters": ("CarBody", "BodyProfile", "PointMass", "Segment", "Bogie", "Load", "Equipment",
-                   "Vehicle", "load_vehicle", "write_vehicle", "shipped_vehicles"),
+    "parameters": ("CarBody", "BodyProfile", "PointMass", "Segment", "Elements", "ModeFiles",
+                   "Bogie", "Load", "Equipment", "Vehicle", "load_vehicle", "write_vehicle",
+                   "shipped_vehicles"),
     "lagrange": ("Coordinate", "Input", "Force", "Lagrangian", "rate"),
     "linear": ("LinearModel", "linearise", "linearise_equations"),
     "halfbody": ("half_body",),

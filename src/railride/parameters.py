@@ -20,6 +20,7 @@ from typing import Any
 
 from railride.body_profile import BodyProfile, PointMass
 from railride.body_segments import Segment
+from railride.body_sources import Elements, ModeFiles
 from railride.body_tables import body_lines, read_body
 from railride.car_body import CarBody
 from railride.errors import Fault, Faults, InputError
@@ -45,8 +46,10 @@ __all__ = [
     "BodyProfile",
     "Bogie",
     "CarBody",
+    "Elements",
     "Equipment",
     "Load",
+    "ModeFiles",
     "PointMass",
     "Segment",
     "Vehicle",

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from railride.bodies.point_modes import RIGID, STRAIGHT, PointModes
-from railride.bodies.reduction import Matrix, lowest_modes
+from railride.bodies.reduction import Matrix, lowest_modes, negative_eigenvalues
 from railride.errors import Faults
 from railride.numeric import Array
 
@@ -183,19 +183,9 @@ class BodyMatrices:
         weight = np.where(M.diagonal() == 0, M.diagonal().max(), np.abs(M.diagonal()))
         for name, A in (("M", M + diags_array(NEGATIVE * weight)),
                         ("K", K + (2 * np.pi * RIGID) ** 2 * M)):  # fmt: skip
-            negative = _negative_eigenvalues(A)
+            negative = negative_eigenvalues(A)
             if negative:
                 faults.add(name, f"{negative} negative eigenvalue{'s' * (negative != 1)}",
                            "a positive semi-definite matrix: no motion has a negative energy",
                            "a sign, or an entry that is missing?")  # fmt: skip
                 return
-
-
-def _negative_eigenvalues(A: Matrix) -> int:
-    """How many there are: as many as negative pivots (Sylvester's law of inertia)."""
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    factors = splu(csc_array(A), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-                   options={"SymmetricMode": True})  # fmt: skip
-    return int((factors.U.diagonal() < 0).sum())
