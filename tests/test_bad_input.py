@@ -87,7 +87,6 @@ def test_several_values_in_one_option(refused, option, text, mend):
         ("modes", "--vehicle", "cati2042", "did you mean cati2024"),
         ("modes", "--format", "xml", "table, json, csv"),
         ("modes", "--body", "plate", "one of rigid, segments, beam"),
-        ("modes", "--body", "fe", "one of rigid, segments"),
         ("modes", "--bending-frequency", "0", "above 0"),
         ("modes", "--bending-frequency", "-9", "above 0"),
         ("modes", "--bending-frequency", "9 kg", "a mass"),

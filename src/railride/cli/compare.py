@@ -82,10 +82,11 @@ def compare(
     with working("comparing") as advance:
         from railride import comparison
 
-        chosen = {} if segments is None and modes is None else {"segments": cut, "beams": bent}
+        usual = segments is None and modes is None
+        chosen = {} if usual else {"segments": cut, "beams": bent}
         found = comparison.compare_bodies(
             vehicle, chosen_track(track, extrapolate, how), speeds, at=places, floor=floor,
-            elements=comparison.available_elements(bent or comparison.MODES),
+            elements=comparison.available_elements(comparison.MODES if usual else bent),
             bending_frequency=frequency, bending_damping=damping, progress=advance, **chosen,
         )  # fmt: skip
     rows = [_row(found, one) for one in found.bodies]
