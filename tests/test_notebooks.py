@@ -101,6 +101,15 @@ def test_the_paper_and_the_free_body_in_the_first_notebook():
     assert "is 4 times that of Eq (4)" in text
 
 
+def test_checked_values_in_the_second_notebook():
+    """Zeros by hand, (k + 1/2) 55.56/17.5 and /2.5 Hz; exact values of independent programs."""
+    text = "\n".join(in_text(read(FOLDER / "02_frequency_response_and_control.ipynb")))
+    assert "at 1.587, 4.762, 7.937 Hz …, of the 2.5 m wheelbase at 11.11 Hz" in text
+    assert "- rigid body: 0.0756 m/s²" in text
+    assert "- 4 segments: 0.2408 m/s²" in text
+    assert "- skyhook, ideal: 0.169 m/s²" in text
+
+
 def test_a_failing_cell_fails_the_run(run):
     notebook = nbformat.v4.new_notebook(
         cells=[nbformat.v4.new_code_cell("1 / 0")],

@@ -36,6 +36,8 @@ def plot_loop_spectra(spectra: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
         ax.plot(*canvas.outline(frequency, values), **look, linewidth=1.3, label=str(name))
     largest, least = (float(np.sqrt(x)) for x in (spectra.max().max(), spectra.min().min()))
     ax.set_xscale("log")
+    if frequency[0] < frequency[-1]:
+        ax.set_xlim(frequency[0], frequency[-1])
     ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter(FuncFormatter(lambda _, __: ""))
