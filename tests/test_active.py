@@ -35,7 +35,8 @@ from railride.rides import ride
 from railride.running_gear import primary_deflection
 from railride.spectra import spectrum, temporal
 from railride.statespace import state_space
-from railride.stochastic import stochastic_ride
+from railride.stochastic import measured_spectrum, stochastic_ride
+from railride.track import synthesise
 from railride.vehicle import Output, derive_vehicle
 from railride.weightings import weighting
 
@@ -320,6 +321,21 @@ def test_controllers_of_other_signals_are_refused():
         rate_loops([skyhook(model, 1e4)], 0.0, LOW)
     with pytest.raises(InputError, match="off the body"):
         rate_loops([skyhook(model, 1e4)], V, LOW, at=(99.0,))
+
+
+def test_any_kind_of_track_will_do_for_loops():
+    model, road = paper_coach(1), synthesise(LOW, 2000.0, 0.25, seed=3)
+    loops = [skyhook(model, 1e5), lqg(model, V, "erri_low", force=2e3)]
+    by_name, by_spectrum = (rate_loops(loops, V, track, at=0.0) for track in ("erri_low", LOW))
+    pd.testing.assert_frame_equal(by_name, by_spectrum)
+    assert by_name.attrs["remarks"] == []
+    measured = rate_loops(loops, V, road)
+    assert any("Welch" in remark for remark in measured.attrs["remarks"])
+    pd.testing.assert_frame_equal(measured, rate_loops(loops, V, measured_spectrum(road)))
+    f = [1.0, 2.0]
+    pd.testing.assert_frame_equal(loop_spectra(loops, V, "erri_low", f),
+                                  loop_spectra(loops, V, LOW, f))  # fmt: skip
+    assert any("Welch" in said for said in lqg(model, V, road, force=2e3).remarks)
 
 
 def test_changes_hold_in_the_loop_alone():

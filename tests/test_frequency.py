@@ -342,6 +342,7 @@ def test_python_control_plots_it():
         ({"frequency": [2.0, 1.0]}, "1 Hz after 2 Hz.*ascending"),
         ({"frequency": [2.0, 2.0]}, "2 Hz after 2 Hz.*each once"),
         ({"speed": 0.0}, "speed"),
+        ({"speed": "fast"}, "speed: found 'fast'; expected a finite speed above zero"),
         ({"speed": None}, "speed: found none"),
         ({"source": "w_9"}, "found 'w_9'.*track, w_1, w_2, w_3, w_4, f_1, f_2"),
         ({"source": ["f_1", "f_1"]}, "source: found f_1, f_1.*none twice"),

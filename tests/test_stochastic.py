@@ -6,6 +6,7 @@ import itertools
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 import scipy.integrate
 import scipy.linalg
@@ -37,6 +38,7 @@ from railride.stochastic.gains import PLAIN, sperling, weighted
 from railride.stochastic.quadrature import gauss_points, graded_panels
 from railride.stochastic.ride import floor_in_hand
 from railride.track import Track, synthesise
+from railride.trackfile import read_track, write_track
 from railride.vehicle import derive_vehicle
 from railride.weightings import weighting
 
@@ -607,6 +609,51 @@ def test_modal_parts_are_the_vehicles_response():
 
 
 # Measured tracks
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory):
+    """Tracks of every kind, each with the spectrum that exact values should come from."""
+    road = synthesise(spectrum("erri_low"), 2000.0, 0.25, seed=3)
+    file = tmp_path_factory.mktemp("tracks") / "road.csv"
+    write_track(road, file)
+    return {"name": ("sncf_good", spectrum("sncf_good")), "spectrum": (LOW, LOW),
+            "track": (road, measured_spectrum(road)),
+            "file": (file, measured_spectrum(read_track(file))),
+            "text": (str(file), measured_spectrum(read_track(file)))}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["name", "spectrum", "track", "file", "text"])
+def test_any_kind_of_track_will_do(sources, kind):
+    model, (track, expected) = paper_coach(2), sources[kind]
+
+    def all_of(source):
+        return [
+            pd.DataFrame({"a_wrms": stochastic_ride(model, 40.0, source).a_wrms}),
+            third_octaves(model, 40.0, source), mode_shares(model, 40.0, source),
+            output_statistics(model, 40.0, source), comfort_map(model, source, 40.0, 0.0),
+        ]  # fmt: skip
+
+    for found, wanted in zip(all_of(track), all_of(expected), strict=True):
+        pd.testing.assert_frame_equal(found, wanted)
+    remarks = stochastic_ride(model, 40.0, track).remarks
+    said = {"name": ["sncf_good holds wavelengths of 2 to 40 m"], "spectrum": []}
+    for words in said.get(kind, ["exact values estimated from a Welch spectrum"]):
+        assert any(words in remark for remark in remarks)
+        for table in all_of(track)[1:]:
+            assert any(words in remark for remark in table.attrs["remarks"])
+
+
+def test_tracks_that_are_none_are_refused_in_words(tmp_path):
+    for track in ("erri", tmp_path / "none.csv"):
+        with pytest.raises(InputError, match=r"erri|none\.csv"):
+            stochastic_ride(paper_coach(1), 40.0, track)
+    with pytest.raises(InputError, match="speed: found 'fast'; expected a finite speed above zero"):
+        stochastic_ride(paper_coach(1), "fast", LOW)
+    with pytest.raises(InputError, match="found 'Wx'"):
+        stochastic_ride(paper_coach(1), 40.0, LOW, weight="Wx")
+    with pytest.raises(InputError, match="at: found 'x'"):
+        third_octaves(paper_coach(1), 40.0, LOW, "x")
 
 
 def test_a_measured_spectrum_recovers_the_value_within_its_uncertainty():

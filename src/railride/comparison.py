@@ -22,9 +22,9 @@ from railride.errors import InputError
 from railride.modal import modes
 from railride.numeric import Array
 from railride.parameters import Vehicle, load_vehicle
-from railride.rides import PAPER_SPEEDS, RATE, exact_spectrum, ridden_track
+from railride.rides import PAPER_SPEEDS, RATE, ridden_track
 from railride.spectra import Spectrum
-from railride.stochastic import stochastic_ride
+from railride.stochastic import stochastic_ride, track_spectrum
 from railride.timerun import time_run
 from railride.track import Track
 from railride.trackfile import load_track
@@ -164,9 +164,7 @@ def compare_bodies(
         raise InputError("compare: found no bodies or no speeds; expected at least one of each")
     places = tuple(_usual_places(vehicle) if at is None else map(float, at))
     source = load_track(track)
-    spectrum, said = exact_spectrum(source)
-    if spectrum is None:  # not with what is needed
-        raise InputError("compare: found no spectrum of the track; expected one")
+    spectrum, said = track_spectrum(source)
     road = ridden_track(source, speeds, RUN, 1)
     given: dict[str, Any] = {
         "bending_frequency": bending_frequency,

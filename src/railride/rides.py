@@ -25,8 +25,8 @@ from railride.stochastic import (
     BAND_HZ,
     MeasuredSpectrum,
     StochasticRide,
-    measured_spectrum,
     stochastic_ride,
+    track_spectrum,
 )
 from railride.timerun import LONGEST_RUN_IN, Run, time_run
 from railride.track import Track, recommended_step, resolved_band_hz, synthesise
@@ -157,7 +157,7 @@ def ride(
     length: float = 1000.0,
     seed: int = 1,
     floor: str = "smooth",
-    weight: str = "Wk",
+    weight: str | Weighting = "Wk",
     rate: float = RATE,
     spectral: bool = False,
     progress: Callable[[float], Any] | None = None,
@@ -170,7 +170,7 @@ def ride(
     speeds : m/s, one or several, each > 0. at : points of the floor, m forward of the body's
         middle.
     length : m, the rated section; with a file, its last metres. seed : of a synthetic track.
-    floor : "smooth" or "polygon". weight : a weighting's name. rate : samples a second.
+    floor : "smooth" or "polygon". weight : a weighting or its name. rate : samples a second.
     spectral : the exact stochastic values alone, without a time run; of a measured track, those of
         the spectrum that is estimated from the whole of it.
     progress : called with the fraction done.
@@ -232,24 +232,18 @@ def ride(
 def exact_spectrum(
     source: Spectrum | Track, *, needed: bool = True
 ) -> tuple[Spectrum | None, list[str]]:
-    """The spectrum that exact values come from, and what to say of it and of the track.
-
-    A measured track's is estimated from the whole of it; None where that cannot be and the exact
-    values are not ``needed``.
+    """As :func:`railride.stochastic.track_spectrum`; none where it cannot be and is not ``needed``.
 
     Raises
     ------
     InputError : a measured track from which no spectrum can be estimated, where it is needed.
     """
-    if isinstance(source, Spectrum):
-        return source, list(source.remarks)
     try:
-        found = measured_spectrum(source)
+        return track_spectrum(source)
     except InputError as fault:
         if needed:
             raise
         return None, [*source.remarks, f"no exact value: {fault}"]
-    return found, [*source.remarks, found.remark]
 
 
 def _exact(
@@ -265,13 +259,14 @@ def _exact(
         if needed or not isinstance(of, MeasuredSpectrum):
             raise
         return None, [f"no exact value: {fault}"]
-    remarks = list(found.remarks)
-    if isinstance(of, MeasuredSpectrum) and not needed:
-        shortest, longest = of.wavelengths
-        low, high = speed / longest, speed / shortest
-        remarks.append(f"{_kmh(speed)}: the exact value of {of.name} holds {max(low, 0.05):.2g} to "
-                       f"{min(high, 80.0):.3g} Hz")  # fmt: skip
-    return found, remarks
+    if not isinstance(of, MeasuredSpectrum) or needed:
+        return found, list(found.remarks)
+    shortest, longest = of.wavelengths
+    low, high = speed / longest, speed / shortest
+    covered = coverage_remark(of.name, of.active_band, speed)  # the run itself holds more
+    remarks = [said for said in found.remarks if said != covered]
+    held = f"{max(low, 0.05):.2g} to {min(high, 80.0):.3g} Hz"
+    return found, [*remarks, f"{_kmh(speed)}: the exact value of {of.name} holds {held}"]
 
 
 def _rate(

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,9 +32,11 @@ from railride.active.signals import suspension_signals
 from railride.active.skyhook import actuator_dynamics
 from railride.errors import Faults, InputError
 from railride.numeric import Array
-from railride.quantities import check_number
-from railride.spectra import Spectrum, check_speed, temporal
+from railride.quantities import check_number, several
+from railride.spectra import Spectrum, temporal
 from railride.statespace import state_space
+from railride.stochastic.measured import track_spectrum
+from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -47,16 +50,16 @@ MATCH_HZ = 1.0  # where the shaped noise has the spectrum's own density
 def lqg(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
+    track: str | Path | Spectrum | Track,
     *,
     acceleration: float = 0.1,
     travel: float = 0.01,
     force: float = 5e3,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = (0.0,),
     sensor_noise: float = 0.03,
     bandwidth: float | None = None,
     order: int = 2,
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
     name: str = "LQG",
     **changes: ArrayLike,
 ) -> Loop:
@@ -64,7 +67,8 @@ def lqg(
 
     Parameters
     ----------
-    speed : V in m/s, > 0, that the design is made for. spectrum : of the track.
+    speed : V in m/s, > 0, that the design is made for.
+    track : a spectrum or its name, a track or its file.
     acceleration, travel, force : acceptable sizes in m/s² (weighted, at each point), m and N, all
         > 0; a larger force makes a stronger controller.
     at : points of the smooth floor whose comfort counts, m forward of the body's middle.
@@ -72,7 +76,7 @@ def lqg(
         it stands for what the model does not know, and keeps the filter from trusting its bending
         modes.
     bandwidth, order : of the actuators, Hz and 1 or 2 (Butterworth), part of the design and of the
-        loop; None: ideal. weight : default W_k.
+        loop; None: ideal. weight : a weighting or its name.
     name : of the design, for tables and messages.
     changes : parameter values in place of the vehicle's.
 
@@ -82,22 +86,22 @@ def lqg(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
+    >>> from railride import derive_vehicle
     >>> from railride.active import rate_loop
-    >>> coach, low = derive_vehicle(load_vehicle("cati2024"), 2), spectrum("erri_low")
-    >>> rating = rate_loop(lqg(coach, 200 / 3.6, low, force=2e3), 200 / 3.6, low)
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> rating = rate_loop(lqg(coach, 200 / 3.6, "erri_low", force=2e3), 200 / 3.6, "erri_low")
     >>> bool(rating.a_wrms[0] < 0.1)
     True
     """
     import control
 
     _check(name, acceleration=acceleration, travel=travel, force=force, sensor_noise=sensor_noise)
-    check_speed(speed)
+    spectrum, said = track_spectrum(track, [speed])
+    at = several(at, f"{name}: at", "m")
     if not at:
         raise InputError(f"{name}: at: found no point; expected at least one")
-    weight = weighting("Wk") if weight is None else weight
     bogies = model.running_gear.bogies
-    design = _design(model, speed, at, weight, bandwidth, order, changes)
+    design = _design(model, speed, at, weighting(weight), bandwidth, order, changes)
     n, force = len(bogies), force * np.sqrt(len(bogies))
     sizes = np.repeat([acceleration * np.sqrt(len(at)), travel * np.sqrt(n)], [len(at), n])
     K = _regulator(design, sizes, force, name)
@@ -112,7 +116,8 @@ def lqg(
                             inputs=[output.name for output in measured],
                             outputs=[f.name for f in model.linear.forces])  # fmt: skip
     remark = f"{name}: the controller is unstable by itself: a sensor that fails lets it run away"
-    return Loop(name, model, controller, measured, changes, (remark,) if growing else ())
+    remarks = (*said, *([remark] if growing else []))
+    return Loop(name, model, controller, measured, changes, remarks)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,9 +23,12 @@ from railride.active.loop import Complex, Loop, respond, triangular_form
 from railride.errors import InputError
 from railride.frequency import check_ascending, check_frequency, wheelset_delays
 from railride.numeric import Array
+from railride.quantities import several
 from railride.spectra import Spectrum, check_speed, temporal
 from railride.stochastic.gains import PLAIN, Gain, weighted
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.process import Process, panel_edges
+from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -72,7 +76,7 @@ class LoopRating:
     a_wrms : m/s², weighted r.m.s. of the floor's acceleration, (positions,). travel : m, r.m.s. of
     the secondary suspension's extension, (bogies,). force : N, r.m.s. of the actuators, (bogies,).
     decay : 1/s, of the motion that is slowest to settle, and least_damping_ratio of all of them.
-    modulus_margin : see :attr:`Loop.modulus_margin`.
+    modulus_margin : see :attr:`Loop.modulus_margin`. remarks : what to know of track and design.
     """
 
     a_wrms: Array
@@ -81,39 +85,42 @@ class LoopRating:
     decay: float
     least_damping_ratio: float
     modulus_margin: float
+    remarks: tuple[str, ...] = ()
 
 
 def rate_loop(
     loop: Loop,
     speed: float,
-    spectrum: Spectrum,
-    at: Sequence[float] = (0.0,),
+    track: str | Path | Spectrum | Track,
+    at: float | Sequence[float] = (0.0,),
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
 ) -> LoopRating:
-    """Exact comfort, travel and forces of one loop at a speed over a track of a spectrum.
+    """Exact comfort, travel and forces of one loop at a speed over a track.
 
     Parameters
     ----------
     loop : the design, stable as it is. speed : V in m/s, > 0.
+    track : a spectrum or its name, a track or its file.
     at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
-    weight : default W_k.
+    weight : a weighting or its name.
 
     Raises
     ------
     InputError : speed ≤ 0, a point off the body, a spectrum with nothing in 0.05-80 Hz.
     """
-    model = loop.model
+    spectrum, remarks = track_spectrum(track, [speed])
+    model, at = loop.model, several(at, "at", "m")
     points, bogies = [model.floor(x, floor) for x in at], model.running_gear.bogies
     system = loop.closed([*points, *(f"secondary_{b}_deflection" for b in bogies)])
-    gains = (PLAIN, weighted(weighting("Wk") if weight is None else weight))
+    gains = (PLAIN, weighted(weighting(weight)))
     found = _process(system, model, speed, spectrum, gains).integrals()
     plain, comfort = np.sqrt(found.mean_square)
     n, m = len(points), len(points) + len(bogies)
     force = plain[m:] if len(plain) > m else np.zeros(len(bogies))
     return LoopRating(comfort[:n], plain[n:m], force, loop.decay, loop.least_damping_ratio,
-                      loop.modulus_margin)  # fmt: skip
+                      loop.modulus_margin, (*remarks, *loop.remarks))  # fmt: skip
 
 
 def _process(
@@ -143,20 +150,24 @@ def _process(
 def rate_loops(
     loops: Mapping[str, Loop] | Sequence[Loop],
     speed: float,
-    spectrum: Spectrum,
-    at: Sequence[float] = (0.0,),
+    track: str | Path | Spectrum | Track,
+    at: float | Sequence[float] = (0.0,),
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
 ) -> pd.DataFrame:
     """Designs beside the passive vehicle, one row each, the units in the column names.
 
     Parameters
     ----------
     loops : designs by name, or designs with names of their own, all of one vehicle.
-    speed : V in m/s, > 0. spectrum : of the track.
+    speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
     at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
-    weight : default W_k.
+    weight : a weighting or its name.
+
+    Returns
+    -------
+    table : the ratings; ``table.attrs["remarks"]``: what to know of the track and the designs.
 
     Raises
     ------
@@ -164,18 +175,20 @@ def rate_loops(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, skyhook, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=1)
-    >>> table = rate_loops([skyhook(coach, 100e3)], 200 / 3.6, spectrum("erri_low"))
+    >>> from railride import derive_vehicle, skyhook
+    >>> coach = derive_vehicle("cati2024", segments=1)
+    >>> table = rate_loops([skyhook(coach, 100e3)], 200 / 3.6, "erri_low")
     >>> table.index.tolist(), table["a_wrms at 0 m [m/s^2]"].round(3).tolist()
     (['passive', 'skyhook'], [0.076, 0.069])
     """
     import pandas as pd
 
-    named = _beside_passive(loops)
-    rows = []
+    named, at = _beside_passive(loops), several(at, "at", "m")
+    spectrum, _ = track_spectrum(track)
+    rows, remarks = [], list[str]()
     for loop in named.values():
         found = rate_loop(loop, speed, spectrum, at, floor=floor, weight=weight)
+        remarks += found.remarks
         comfort = zip(at, found.a_wrms, strict=True)
         row = {f"a_wrms at {x:g} m [m/s^2]": float(a_w) for x, a_w in comfort}
         for b, travel in enumerate(found.travel, start=1):
@@ -185,32 +198,35 @@ def rate_loops(
         rows.append(row | {"slowest decay [1/s]": found.decay,
                            "least damping ratio": found.least_damping_ratio,
                            "modulus margin": found.modulus_margin})  # fmt: skip
-    return pd.DataFrame(rows, index=pd.Index(named, name="design"))
+    table = pd.DataFrame(rows, index=pd.Index(named, name="design"))
+    table.attrs["remarks"] = list(dict.fromkeys(remarks))
+    return table
 
 
 def loop_spectra(
     loops: Mapping[str, Loop] | Sequence[Loop],
     speed: float,
-    spectrum: Spectrum,
+    track: str | Path | Spectrum | Track,
     frequency: ArrayLike | None = None,
     at: float = 0.0,
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
 ) -> pd.DataFrame:
     """Where designs help: spectra |W H|² S_w of the floor's weighted acceleration, (m/s²)²/Hz.
 
     Parameters
     ----------
     loops : as for :func:`rate_loops`; the passive vehicle stands first.
-    speed : V in m/s, > 0. spectrum : of the track.
+    speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
     frequency : in Hz, ascending, (F,); default 2,000 from 0.2 to 40 Hz.
     at : point of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
-    weight : default W_k.
+    weight : a weighting or its name.
 
     Returns
     -------
-    frame : one column per design, the index "frequency [Hz]".
+    frame : one column per design, the index "frequency [Hz]"; ``frame.attrs["remarks"]``: what to
+        know of the track.
 
     Raises
     ------
@@ -219,14 +235,16 @@ def loop_spectra(
     import pandas as pd
 
     f = check_ascending(np.geomspace(0.2, 40.0, 2000) if frequency is None else frequency)
-    weight = weighting("Wk") if weight is None else weight
-    gain = np.abs(weight.response(f)) ** 2 * temporal(spectrum, speed)(f)
+    spectrum, remarks = track_spectrum(track, [speed])
+    gain = np.abs(weighting(weight).response(f)) ** 2 * temporal(spectrum, speed)(f)
     columns = {}
     for name, loop in _beside_passive(loops).items():
         system = loop.closed([loop.model.floor(at, floor)])
         H = closed_response(system, loop.model, speed, f)[0]
         columns[name] = np.abs(H) ** 2 * gain
-    return pd.DataFrame(columns, index=pd.Index(f, name="frequency [Hz]"))
+    table = pd.DataFrame(columns, index=pd.Index(f, name="frequency [Hz]"))
+    table.attrs["remarks"] = remarks
+    return table
 
 
 def _beside_passive(loops: Mapping[str, Loop] | Sequence[Loop]) -> dict[str, Loop]:

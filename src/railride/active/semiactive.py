@@ -28,7 +28,7 @@ from railride.firstorder import first_order
 from railride.frequency import wheelset_delays
 from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
-from railride.quantities import check_number
+from railride.quantities import check_number, several
 from railride.response import first_order_hold, simulate
 from railride.rides import RATE, ridden_track
 from railride.spectra import Spectrum, check_speed
@@ -37,7 +37,7 @@ from railride.timerun import run_in_time, with_run_in
 from railride.track import Track
 from railride.trackfile import load_track
 from railride.vehicle import Output, VehicleModel
-from railride.weightings import weighting
+from railride.weightings import Weighting, weighting
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,11 +93,11 @@ def semi_active_ride(
     *,
     c_max: float,
     c_min: float,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = (0.0,),
     length: float = 1000.0,
     seed: int = 1,
     floor: str = "smooth",
-    weight: str = "Wk",
+    weight: str | Weighting = "Wk",
     rate: float = RATE,
 ) -> SemiActiveRide:
     """Run the vehicle over a track with its own secondary dampers and with switching ones.
@@ -108,7 +108,7 @@ def semi_active_ride(
     c_max, c_min : damping of each bogie's secondary damper, hard and soft, N s/m,
         0 ≤ c_min ≤ c_max; where the damper has an elastic mount, c_min > 0.
     at : points of the floor, m forward of the body's middle. length : m, the rated section.
-    seed : of a synthetic track. floor : "smooth" or "polygon". weight : a weighting's name.
+    seed : of a synthetic track. floor : "smooth" or "polygon". weight : a weighting or its name.
     rate : samples a second, at each of which the valves are set.
 
     Raises
@@ -119,6 +119,7 @@ def semi_active_ride(
     _check_arguments(model, c_max, c_min, length=length, rate=rate)
     check_speed(speed)
     source, weighted_by = load_track(track), weighting(weight)
+    at = several(at, "at", "m")
     points = [model.floor(x, floor) for x in at]
     settling, said = run_in_time(model, system_arrays(model, points), speed, weighted_by)
     road, before = with_run_in(

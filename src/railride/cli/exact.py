@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     from railride.spectra import Spectrum
     from railride.vehicle import VehicleModel
-    from railride.weightings import Weighting
 
 LARGER = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}  # units of a table
 LEAST_SHARE = 5e-4  # of a table: smaller shares are printed in JSON alone
@@ -29,7 +28,7 @@ class Asked:
     speeds: Sequence[float]
     at: Sequence[float]
     floor: str
-    weight: Weighting
+    weight: str
     distance: float
 
 
@@ -100,7 +99,7 @@ def bands(asked: Asked) -> Detail:
     values = {(row["band_hz"], row["speed_kmh"], row["position_m"]): row["a_wrms"] for row in rows}
     cases = list(dict.fromkeys((row["speed_kmh"], row["position_m"]) for row in rows))
     columns = [("band\n[Hz]", ".6g"), *((f"{v:.6g} km/h,\n{x:.6g} m", ".5f") for v, x in cases)]
-    title = f"Third octaves of the floor's acceleration, {asked.weight.name} weighted r.m.s. [m/s²]"
+    title = f"Third octaves of the floor's acceleration, {asked.weight} weighted r.m.s. [m/s²]"
     table = output.table_text(title, columns, [(f, *(values[f, *case] for case in cases))
                                                for f in listed])  # fmt: skip
     return Detail("third_octaves", rows, table)

@@ -96,23 +96,20 @@ def comfort_map(
     how = reading.of(given, track)
     with working("mapping") as advance:
         model = choice.model(given)
-        from railride import rides, stochastic, weightings
+        from railride import stochastic
 
-        source, said = rides.exact_spectrum(chosen_track(track, extrapolate, how))
-        if source is None:  # not with what is needed
-            return
         found = stochastic.comfort_map(
-            model, source, speeds, places, floor=floor, weight=weightings.weighting(weighting),
-            progress=advance,
+            model, chosen_track(track, extrapolate, how), speeds, places, floor=floor,
+            weight=weighting, progress=advance,
         )  # fmt: skip
         if plot is not None:
             from railride import plots
 
             plots.save(plots.plot_comfort(found), plot)
-    remarks = [*model.vehicle.remarks, *model.remarks, *said, *found.attrs["remarks"]]
+    remarks = [*model.vehicle.remarks, *model.remarks, *found.attrs["remarks"]]
     rows = found[list(COLUMNS.values())].set_axis(list(COLUMNS), axis=1).to_dict("records")
     title = f"{found.attrs['of']}, {found.attrs['weighting']} weighted"
-    text = output.result(form, {"track": source.name, "map": rows}, rows,
+    text = output.result(form, {"track": found.attrs["track"], "map": rows}, rows,
                          lambda: _table(found, title), remarks)  # fmt: skip
     output.write(text, to)
     output.remark(remarks)

@@ -190,7 +190,6 @@ def _details(asked: Sequence[str], model: VehicleModel, source: Spectrum | Track
              speeds: list[float], places: list[float], length: float | None, floor: str,
              weighting: str) -> list[Detail]:  # fmt: skip
     """What else was asked for, from the track's spectrum; nothing where it has none."""
-    from railride import weightings
     from railride.cli import exact
     from railride.rides import exact_spectrum
 
@@ -199,7 +198,7 @@ def _details(asked: Sequence[str], model: VehicleModel, source: Spectrum | Track
     spectrum, _ = exact_spectrum(source)
     if spectrum is None:
         return []
-    given = exact.Asked(model, spectrum, speeds, places, floor, weightings.weighting(weighting),
+    given = exact.Asked(model, spectrum, speeds, places, floor, weighting,
                         1000.0 if length is None else length)  # fmt: skip
     return [getattr(exact, name)(given) for name in asked]
 

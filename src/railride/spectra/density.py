@@ -155,7 +155,13 @@ def check_band(band: tuple[float, float], where: str) -> None:
 
 def check_speed(speed: float) -> None:
     """Raise InputError unless ``speed`` (m/s) is finite and above zero."""
-    if not (isfinite(speed) and speed > 0.0):
+    try:
+        good = isfinite(speed) and speed > 0.0
+    except (TypeError, ValueError):
+        raise InputError(
+            f"speed: found {speed!r}; expected a finite speed above zero, in m/s"
+        ) from None
+    if not good:
         raise InputError(f"speed: found {speed} m/s; expected a finite speed above zero")
 
 

@@ -18,7 +18,12 @@ from railride.stochastic.extremes import (
 )
 from railride.stochastic.gains import Gain
 from railride.stochastic.maps import comfort_map
-from railride.stochastic.measured import MeasuredSpectrum, measured_spectrum, spectrum_fits
+from railride.stochastic.measured import (
+    MeasuredSpectrum,
+    measured_spectrum,
+    spectrum_fits,
+    track_spectrum,
+)
 from railride.stochastic.process import BAND_HZ, Process, process
 from railride.stochastic.ride import (
     StochasticRide,
@@ -46,6 +51,7 @@ __all__ = [
     "spectrum_fits",
     "stochastic_ride",
     "third_octaves",
+    "track_spectrum",
     "weighted_rms",
     "weighted_rms_of_many",
 ]

@@ -9,16 +9,20 @@ Source: IEC 61260-1:2014, as :mod:`railride.comfort.third_octaves`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.comfort.third_octaves import NUMBERS, band_edges, nominal_frequencies
-from railride.spectra import Spectrum, coverage_remark
+from railride.quantities import several
+from railride.spectra import Spectrum
 from railride.stochastic.gains import PLAIN, weighted
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.process import process
 from railride.stochastic.ride import floor_in_hand
+from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -29,25 +33,27 @@ if TYPE_CHECKING:
 def third_octaves(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
-    at: Sequence[float] = (0.0,),
+    track: str | Path | Spectrum | Track,
+    at: float | Sequence[float] = (0.0,),
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
     **changes: ArrayLike,
 ) -> pd.DataFrame:
     """Third-octave r.m.s. values of the floor's acceleration, exact, one row per point and band.
 
     Parameters
     ----------
-    speed : V in m/s, > 0. spectrum : of the track. at : points of the floor, m forward of the
-        body's middle. floor : "smooth" or "polygon". weight : default W_k.
+    speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
+    at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
+    weight : a weighting or its name.
     changes : parameter values in place of the vehicle's.
 
     Returns
     -------
     table : "position [m]", "band [Hz]" (nominal), "midband [Hz]", "a_rms [m/s^2]", "a_wrms
-        [m/s^2]". What the spectrum does not hold is zero; ``table.attrs["remarks"]`` names it.
+        [m/s^2]". What the track's spectrum does not hold is zero; ``table.attrs["remarks"]`` names
+        it.
 
     Raises
     ------
@@ -55,16 +61,17 @@ def third_octaves(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
-    >>> table = third_octaves(coach, 200 / 3.6, spectrum("erri_low"))
+    >>> from railride import derive_vehicle
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> table = third_octaves(coach, 200 / 3.6, "erri_low")
     >>> float(table["band [Hz]"][table["a_wrms [m/s^2]"].idxmax()])
     10.0
     """
     import pandas as pd
 
-    edges = band_edges()
-    gains = (PLAIN, weighted(weight or weighting("Wk")))
+    spectrum, remarks = track_spectrum(track, [speed])
+    at, edges = several(at, "at", "m"), band_edges()
+    gains = (PLAIN, weighted(weighting(weight)))
     m, rows = floor_in_hand(model, at, floor, changes)
     found = process(
         m, rows, model.vehicle.wheelset_positions, speed, spectrum, gains,
@@ -80,6 +87,5 @@ def third_octaves(
         "a_rms [m/s^2]": a.ravel(),
         "a_wrms [m/s^2]": a_w.ravel(),
     })  # fmt: skip
-    remark = coverage_remark(spectrum.name, spectrum.active_band, speed)
-    table.attrs["remarks"] = [remark] if remark else []
+    table.attrs["remarks"] = remarks
     return table

@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,11 +28,13 @@ from numpy.typing import ArrayLike
 
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.spectra import Spectrum, check_speed
+from railride.spectra import Spectrum
 from railride.statespace import chosen_outputs
 from railride.stochastic.gains import PLAIN, Gain
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.process import BAND_HZ, process, relative
 from railride.stochastic.ride import in_hand
+from railride.track import Track
 from railride.vehicle import Output, VehicleModel
 
 if TYPE_CHECKING:
@@ -87,7 +90,7 @@ def moment(gain: Gain, order: int) -> Gain:
 def extremes(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
+    track: str | Path | Spectrum | Track,
     outputs: Output | str | Sequence[Output | str] | None = None,
     *,
     distance: float | None = None,
@@ -97,7 +100,7 @@ def extremes(
     **changes: ArrayLike,
 ) -> list[Extreme]:
     """R.m.s. and expected peak of outputs; arguments and errors as :func:`output_statistics`."""
-    check_speed(speed)
+    spectrum, _ = track_spectrum(track, [speed])
     T = _duration(speed, distance, duration)
     if outputs is None:
         outputs = [name for name in model.outputs if "deflection" in name or "load" in name]
@@ -132,7 +135,7 @@ def extremes(
 def output_statistics(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
+    track: str | Path | Spectrum | Track,
     outputs: Output | str | Sequence[Output | str] | None = None,
     *,
     distance: float | None = None,
@@ -145,7 +148,7 @@ def output_statistics(
 
     Parameters
     ----------
-    speed : V in m/s, > 0. spectrum : of the track.
+    speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
     outputs : one or several, or their names; default every suspension deflection and wheel load.
     distance, duration : m or s over which the peak is expected, one of them; default 1000 m.
     corner : Hz, of the low-pass that wheel loads are taken after. band : from and to, Hz.
@@ -155,7 +158,8 @@ def output_statistics(
     -------
     table : "output", "unit", "rms" and "expected peak" in that unit, "zero up-crossings [1/s]",
         "low-pass [Hz]" (none where none was used), "error" (of the r.m.s., relative, estimated);
-        ``table.attrs["remarks"]`` says where wheel loads are missing.
+        ``table.attrs["remarks"]`` says where wheel loads are missing, and what to know of the
+        track.
 
     Raises
     ------
@@ -164,14 +168,15 @@ def output_statistics(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
-    >>> table = output_statistics(coach, 200 / 3.6, spectrum("erri_low"))
+    >>> from railride import derive_vehicle
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> table = output_statistics(coach, 200 / 3.6, "erri_low")
     >>> list(table["output"][:2]), bool((table["expected peak"] > 2 * table["rms"]).all())
     (['secondary_1_deflection', 'primary_1_deflection'], True)
     """
     import pandas as pd
 
+    spectrum, remarks = track_spectrum(track, [speed])
     found = extremes(model, speed, spectrum, outputs, distance=distance, duration=duration,
                      corner=corner, band=band, **changes)  # fmt: skip
     table = pd.DataFrame(
@@ -188,7 +193,7 @@ def output_statistics(
             for one in found
         ]
     )
-    table.attrs["remarks"] = missing_loads(model) if outputs is None else []
+    table.attrs["remarks"] = remarks + (missing_loads(model) if outputs is None else [])
     return table
 
 

@@ -6,6 +6,7 @@ Source: as :mod:`railride.stochastic.ride`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,10 +15,13 @@ from numpy.typing import ArrayLike
 from railride.comfort import wz_from_rms
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.spectra import Spectrum, coverage_remark
+from railride.quantities import several
+from railride.spectra import Spectrum
 from railride.stochastic.gains import PLAIN, sperling, weighted
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.ride import STATED, floor_in_hand
 from railride.stochastic.squares import mean_squares
+from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -36,12 +40,12 @@ def along_the_car(model: VehicleModel, points: int = POINTS) -> Array:
 
 def comfort_map(
     model: VehicleModel,
-    spectrum: Spectrum,
-    speeds: Sequence[float] = SPEEDS,
-    at: Sequence[float] | None = None,
+    track: str | Path | Spectrum | Track,
+    speeds: float | Sequence[float] = SPEEDS,
+    at: float | Sequence[float] | None = None,
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
     progress: Callable[[float], Any] | None = None,
     **changes: ArrayLike,
 ) -> pd.DataFrame:
@@ -49,16 +53,18 @@ def comfort_map(
 
     Parameters
     ----------
-    spectrum : of the track. speeds : m/s, each > 0; default 10 to 400 km/h in steps of 2.
+    track : a spectrum or its name, a track or its file.
+    speeds : m/s, each > 0; default 10 to 400 km/h in steps of 2.
     at : points of the floor, m forward of the body's middle; default 49 from end to end.
-    floor : "smooth" or "polygon". weight : default W_k. progress : called with the fraction done.
+    floor : "smooth" or "polygon". weight : a weighting or its name.
+    progress : called with the fraction done.
     changes : parameter values in place of the vehicle's.
 
     Returns
     -------
     table : "speed [km/h]", "position [m]", "a_rms [m/s^2]", "a_wrms [m/s^2]", "Wz", and "error",
         the estimated relative error of a_wrms; ``table.attrs``: "remarks", what to know of it, and
-        what it is "of", under which "weighting".
+        what it is "of", over which "track", under which "weighting".
 
     Raises
     ------
@@ -66,19 +72,21 @@ def comfort_map(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
-    >>> comfort_map(coach, spectrum("erri_low"), [40.0, 50.0], [0.0, 5.0, 10.0]).shape
+    >>> from railride import derive_vehicle
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> comfort_map(coach, "erri_low", [40.0, 50.0], [0.0, 5.0, 10.0]).shape
     (6, 6)
     """
     import pandas as pd
 
-    places = along_the_car(model) if at is None else np.asarray(at, dtype=float)
-    if not len(speeds) or not places.size:
+    speeds = several(speeds, "speeds", "m/s")
+    places = along_the_car(model).tolist() if at is None else several(at, "at", "m")
+    if not speeds or not places:
         raise InputError("comfort map: found no speeds or no points; expected at least one of each")
-    m, rows = floor_in_hand(model, places.tolist(), floor, changes)
-    gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
-    parts, remarks = [], []
+    spectrum, remarks = track_spectrum(track, speeds)
+    weight = weighting(weight)
+    m, rows = floor_in_hand(model, places, floor, changes)
+    gains, parts = (PLAIN, weighted(weight), sperling()), []
     for number, speed in enumerate(speeds, start=1):
         wheelsets = model.vehicle.wheelset_positions
         squares, errors = mean_squares(m, rows, wheelsets, [speed], spectrum, gains)
@@ -93,13 +101,12 @@ def comfort_map(
                 "error": errors[0, 0, 1] / 2,
             })
         )  # fmt: skip
-        remarks.append(coverage_remark(spectrum.name, spectrum.active_band, speed))
         if progress is not None:
             progress(number / len(speeds))
     table = pd.concat(parts, ignore_index=True)
     if (table["error"] > STATED).any():
         remarks.append(f"relative errors of a_wrms reach {table['error'].max():.0e}")
     over = f"{model.vehicle.name} ({model.body.title}) over {spectrum.name}, {floor} floor"
-    table.attrs |= {"of": over, "weighting": (weight or weighting("Wk")).name}
-    table.attrs["remarks"] = list(dict.fromkeys(r for r in remarks if r))
+    table.attrs |= {"of": over, "track": spectrum.name, "weighting": weight.name}
+    table.attrs["remarks"] = list(dict.fromkeys(remarks))
     return table

@@ -1,4 +1,4 @@
-r"""The spectrum of a measured track, for the exact stochastic ride over it.
+r"""The spectrum of a track, for the exact stochastic ride over it; of a measured one by Welch.
 
 Between the lines of Welch's estimate Ω² S(Ω), the spectrum of the slope, is linear: where a track's
 spectrum is steepest it falls as 1/Ω², and what is linear between lines keeps the mean of what
@@ -19,14 +19,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.spectra import Spectrum, fit_spectra
+from railride.spectra import Spectrum, check_speed, coverage_remark, fit_spectra
 from railride.track import RESOLVED_SAMPLES, Track
+from railride.trackfile import load_track
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,6 +64,38 @@ class MeasuredSpectrum(Spectrum):
             f"segments of {self.segment:.6g} m, wavelengths of {shortest:.3g} to {longest:.4g} m; "
             f"they scatter as one run over {self.effective_length:.4g} m of such a track{few}"
         )
+
+
+def track_spectrum(
+    track: str | Path | Spectrum | Track, speeds: Sequence[float] = ()
+) -> tuple[Spectrum, list[str]]:
+    """The spectrum that exact values come from, and what to know of it and of the track.
+
+    Parameters
+    ----------
+    track : a spectrum or its name, a track or its file; a measured track's spectrum is estimated
+        from the whole of it.
+    speeds : m/s, at which it is said what frequencies a spectrum with a band holds.
+
+    Raises
+    ------
+    InputError : a name that is no spectrum's; a file that cannot be used; a measured track from
+        which no spectrum can be estimated; a speed ≤ 0.
+
+    Examples
+    --------
+    >>> track_spectrum("sncf_good", [40.0])[1]
+    ['sncf_good holds wavelengths of 2 to 40 m only: at 144 km/h 1 to 20 Hz; nothing outside']
+    """
+    for speed in speeds:
+        check_speed(speed)
+    source = load_track(track)
+    found = measured_spectrum(source) if isinstance(source, Track) else source
+    remarks = list(source.remarks)
+    if isinstance(found, MeasuredSpectrum):
+        remarks.append(found.remark)
+    covered = [coverage_remark(found.name, found.active_band, speed) for speed in speeds]
+    return found, [*remarks, *filter(None, covered)]
 
 
 def measured_spectrum(track: Track, segment: float | None = None) -> MeasuredSpectrum:

@@ -14,16 +14,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.comfort import wz_from_rms
 from railride.numeric import Array, Matrices
+from railride.quantities import several
 from railride.spectra import Spectrum
 from railride.stochastic.gains import PLAIN, sperling, weighted
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.process import BAND_HZ, process, relative
 from railride.stochastic.squares import mean_squares
+from railride.track import Track
 from railride.vehicle import Output, VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -37,7 +41,7 @@ class StochasticRide:
     a_rms, a_wrms : m/s², the r.m.s. and weighted r.m.s. of the floor's acceleration, 0.05-80 Hz.
     wz : Sperling's ride index. variance_time : ∫ S² df/(∫ S df)² of the weighted spectrum, s.
     a_rms_error, a_wrms_error, wz_error : estimated relative errors of the integration, rounding of
-    the poles included. remarks : which of them are above 1e-6.
+    the poles included. remarks : which of them are above 1e-6, and what to know of the track.
     """
 
     positions: tuple[float, ...]
@@ -58,45 +62,49 @@ class StochasticRide:
 def stochastic_ride(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
-    at: Sequence[float] = (0.0,),
+    track: str | Path | Spectrum | Track,
+    at: float | Sequence[float] = (0.0,),
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
     band: tuple[float, float] = BAND_HZ,
     **changes: ArrayLike,
 ) -> StochasticRide:
-    """Exact comfort values of a vehicle at a speed over a track of a spectrum.
+    """Exact comfort values of a vehicle at a speed over a track.
 
     Parameters
     ----------
     speed : V in m/s, > 0. at : points of the floor, m forward of the body's middle.
-    spectrum : of the track (a measured track's by :func:`measured_spectrum`).
-    floor : how the floor is read, "smooth" or "polygon". weight : default W_k.
+    track : a spectrum or its name, a track or its file; of a measured track, the values are those
+        of its spectrum (:func:`measured_spectrum`).
+    floor : how the floor is read, "smooth" or "polygon". weight : a weighting or its name.
     band : from and to, Hz. changes : parameter values in place of the vehicle's.
 
     Raises
     ------
     InputError : speed ≤ 0, a point off the body, an unstable vehicle, a mode without damping that
-        is felt at one of the points, a spectrum with nothing in the band at this speed.
+        is felt at one of the points, a track that cannot be read or has no spectrum, a spectrum
+        with nothing in the band at this speed.
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
-    >>> ride = stochastic_ride(coach, 200 / 3.6, spectrum("erri_low"), floor="polygon")
+    >>> from railride import derive_vehicle
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> ride = stochastic_ride(coach, 200 / 3.6, "erri_low", floor="polygon")
     >>> round(float(ride.a_wrms[0]), 3), bool(ride.a_wrms_error[0] < 1e-9)
     (0.328, True)
     """
+    spectrum, said = track_spectrum(track, [speed])
+    at = several(at, "at", "m")
     m, rows = floor_in_hand(model, at, floor, changes)
-    gains = (PLAIN, weighted(weight or weighting("Wk")), sperling())
+    gains = (PLAIN, weighted(weighting(weight)), sperling())
     places = model.vehicle.wheelset_positions
     squares, errors = (of[0, 0] for of in mean_squares(m, rows, places, [speed], spectrum, gains,
                                                        band))  # fmt: skip
     scatter = process(m, rows, places, speed, spectrum, gains[1:2], band=band).integrals().squares
     (a, a_w, a_B), (a_error, w_error, B_error) = np.sqrt(squares), errors / 2
     wz_error = 0.3 * B_error
-    remarks = [
+    said += [
         f"{3.6 * speed:.6g} km/h, {x:g} m: the integral of {name} is uncertain by {error[k]:.0e} of"
         " its value (a mode with next to no damping?)"
         for name, error in (("a_rms", a_error), ("a_wrms", w_error), ("W_z", wz_error))
@@ -112,7 +120,7 @@ def stochastic_ride(
         a_rms_error=a_error,
         a_wrms_error=w_error,
         wz_error=wz_error,
-        remarks=tuple(remarks),
+        remarks=tuple(said),
     )
 
 

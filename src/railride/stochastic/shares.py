@@ -20,6 +20,7 @@ analysis in first order), with the square of the sum divided evenly between its 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,10 +29,13 @@ from numpy.typing import ArrayLike, NDArray
 from railride.firstorder import FirstOrder, first_order
 from railride.modal import Mode, modes
 from railride.numeric import Array, Matrices
+from railride.quantities import several
 from railride.spectra import Spectrum
 from railride.stochastic.gains import PLAIN, weighted
+from railride.stochastic.measured import track_spectrum
 from railride.stochastic.process import process
 from railride.stochastic.ride import floor_in_hand
+from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 
@@ -47,25 +51,27 @@ DIRECT = "direct"
 def mode_shares(
     model: VehicleModel,
     speed: float,
-    spectrum: Spectrum,
-    at: Sequence[float] = (0.0,),
+    track: str | Path | Spectrum | Track,
+    at: float | Sequence[float] = (0.0,),
     *,
     floor: str = "smooth",
-    weight: Weighting | None = None,
+    weight: str | Weighting = "Wk",
     **changes: ArrayLike,
 ) -> pd.DataFrame:
     """Share of every mode in the weighted mean square of the floor's acceleration.
 
     Parameters
     ----------
-    speed : V in m/s, > 0. spectrum : of the track. at : points of the floor, m forward of the
-        body's middle. floor : "smooth" or "polygon". weight : default W_k.
+    speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
+    at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
+    weight : a weighting or its name.
     changes : parameter values in place of the vehicle's.
 
     Returns
     -------
     table : "position [m]", "mode", "frequency [Hz]", "damping ratio" (of the first of its name),
         "share" of a_wrms², by position and frequency; the shares of a position add up to 1.
+        ``table.attrs["remarks"]`` : what to know of the track.
 
     Raises
     ------
@@ -73,16 +79,18 @@ def mode_shares(
 
     Examples
     --------
-    >>> from railride import derive_vehicle, load_vehicle, spectrum
-    >>> coach = derive_vehicle(load_vehicle("cati2024"), segments=2)
-    >>> table = mode_shares(coach, 200 / 3.6, spectrum("erri_low"))
+    >>> from railride import derive_vehicle
+    >>> coach = derive_vehicle("cati2024", segments=2)
+    >>> table = mode_shares(coach, 200 / 3.6, "erri_low")
     >>> table["mode"][table["share"].idxmax()]
     'bending 1'
     """
     import pandas as pd
 
+    spectrum, remarks = track_spectrum(track, [speed])
+    at = several(at, "at", "m")
     m, rows = floor_in_hand(model, at, floor, changes)
-    gain = weighted(weight or weighting("Wk"))
+    gain = weighted(weighting(weight))
     places = model.vehicle.wheelset_positions
     whole = process(m, rows, places, speed, spectrum, (gain, PLAIN))
     whole.integrals()  # refuses modes that never settle
@@ -103,7 +111,7 @@ def mode_shares(
     shares = squares / np.maximum(squares.sum(axis=1, keepdims=True), np.finfo(float).tiny)
     keep = [*range(len(groups)), *([len(groups)] if residues.direct else [])]
     first = {group: _first(group, named) for group in groups}
-    return pd.DataFrame(
+    table = pd.DataFrame(
         [
             {
                 "position [m]": float(place),
@@ -116,6 +124,8 @@ def mode_shares(
             for j, group in ((j, [*groups, DIRECT][j]) for j in keep)
         ]
     )
+    table.attrs["remarks"] = remarks
+    return table
 
 
 class _Residues:
