@@ -50,6 +50,8 @@ def test_commands_are_shown():
 def test_commands_run(line, run, tmp_path, monkeypatch):
     """Each as it is printed, in an empty folder; only what takes long is made shorter."""
     monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{k / 200},{(k % 17 - 8) / 20}\n" for k in range(4000))
+    (tmp_path / "floor.csv").write_text("time_s,z\n" + rows, encoding="utf-8")
     words = shlex.split(line, comments=True)
     words = words[1:] if words[0] == "railride" else ["derive", *words[3:]]
     code, out, err = run(*words, *SHORTER.get(words[0], ()))
