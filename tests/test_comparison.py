@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from railride.errors import InputError
 from railride.parameters import load_vehicle
 
 V = 200 / 3.6
+ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +106,30 @@ def test_pictures_draw_errors_over_degrees_of_freedom(found, tmp_path):
     plots.save(plots.plot_comparison(found), tmp_path / "bodies.png")
     titles = [ax.get_title(loc="left") for ax in plots.plot_comparison(found).axes]
     assert titles[:3] == ["at the middle", "8.75 m ahead of the middle", "12 m ahead of the middle"]
+
+
+def test_a_body_with_a_profile_is_measured_against_finite_elements(tmp_path):
+    pytest.importorskip("skfem")
+    text = (ROOT / "data" / "vehicles" / "cati2024.toml").read_text(encoding="utf-8")
+    head, rest = text.split("[body]", 1)
+    bogie = rest[rest.index("[bogie]") :]
+    profile = """[body.profile]
+x = ["-12 m", "0 m", "12 m"]
+bending_stiffness = ["2e9 N m^2", "3e9 N m^2", "2e9 N m^2"]
+mass_per_length = ["1500 kg/m", "1300 kg/m", "1500 kg/m"]
+
+"""
+    file = tmp_path / "uneven.toml"
+    file.write_text(head + profile + bogie, encoding="utf-8")
+    uneven = compare_bodies(
+        str(file), speeds=[V], at=[0.0], segments=[4, 8], beams=[3], elements=[10]
+    )
+    assert uneven.reference.body == "fe"
+    assert [one.title for one in uneven.bodies] == ["4 segments", "8 segments", "fe, 10 modes"]
+    four, eight, fe = (abs(one.error[0, 0]) for one in uneven.bodies)
+    assert fe < 1e-3
+    assert eight < four / 8  # fourth order would be a sixteenth
+    assert any("beams are uniform" in remark for remark in uneven.remarks)
 
 
 def test_progress_ends_at_one():

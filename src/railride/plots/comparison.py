@@ -15,8 +15,12 @@ if TYPE_CHECKING:
 
     from railride.comparison import ComparedBody, Comparison
 
-FAMILIES = {"segments": ("o-", canvas.BODY), "beam": ("s--", canvas.BOGIE),
-            "fe": ("^:", canvas.TRACK), "rigid": ("D", canvas.REST)}  # fmt: skip
+FAMILIES = {
+    "segments": ("segments", "o-", canvas.BODY),
+    "beam": ("beam", "s--", canvas.BOGIE),
+    "fe": ("finite elements", "^:", canvas.TRACK),
+    "rigid": ("rigid", "D", canvas.REST),
+}
 LEAST = 1e-9  # relative error: what is smaller is not drawn
 
 
@@ -74,17 +78,18 @@ def plot_comparison(found: Comparison) -> Figure:
     plot_bending_convergence(found, ax=axes[3])
     speeds = ", ".join(f"{3.6 * v:g}" for v in found.speeds)
     figure.suptitle(f"{found.vehicle} over {found.track} at {speeds} km/h, {found.floor} floor: "
-                    f"errors against a beam of {found.reference.modes} modes")  # fmt: skip
+                    f"errors against {FAMILIES[found.reference.body][0]} of "
+                    f"{found.reference.modes} modes")  # fmt: skip
     return figure
 
 
 def _draw(ax: Axes, found: Comparison, error: Callable[[ComparedBody], float]) -> None:
     """A line per kind of body over the degrees of freedom."""
-    for kind, (style, colour) in FAMILIES.items():
+    for kind, (name, style, colour) in FAMILIES.items():
         pairs = sorted((one.dof, error(one)) for one in found.bodies if one.body == kind)
         pairs = [(dof, value) for dof, value in pairs if value > LEAST]  # NaN neither
         if pairs:
-            ax.plot(*zip(*pairs, strict=True), style, color=colour, label=kind, markersize=5)
+            ax.plot(*zip(*pairs, strict=True), style, color=colour, label=name, markersize=5)
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.xaxis.set_major_formatter("{x:g}")
