@@ -329,6 +329,8 @@ def test_any_kind_of_track_will_do_for_loops():
     by_name, by_spectrum = (rate_loops(loops, V, track, at=0.0) for track in ("erri_low", LOW))
     pd.testing.assert_frame_equal(by_name, by_spectrum)
     assert by_name.attrs["remarks"] == []
+    alone = rate_loops(loops[0], V, "erri_low")
+    pd.testing.assert_frame_equal(alone, by_name.iloc[:2])
     measured = rate_loops(loops, V, road)
     assert any("Welch" in remark for remark in measured.attrs["remarks"])
     pd.testing.assert_frame_equal(measured, rate_loops(loops, V, measured_spectrum(road)))

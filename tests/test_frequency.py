@@ -347,6 +347,8 @@ def test_python_control_plots_it():
         ({"source": "w_9"}, "found 'w_9'.*track, w_1, w_2, w_3, w_4, f_1, f_2"),
         ({"source": ["f_1", "f_1"]}, "source: found f_1, f_1.*none twice"),
         ({"source": []}, "source: found none"),
+        ({"source": 3}, "source: found 3; expected at least one name"),
+        ({"outputs": 5}, "outputs: found 5; expected at least one name"),
         ({"outputs": ["floor"]}, "found 'floor'.*floor_acceleration, bogie_1_acceleration"),
         ({"outputs": []}, "found none"),
         ({"c_2": -1e5}, "c_2|unstable"),

@@ -551,10 +551,10 @@ def test_the_low_pass_is_butterworths():
     np.testing.assert_allclose((low_pass(20.0).poles / 20.0) ** 8, -1, rtol=1e-9)
 
 
-@pytest.mark.parametrize(
-    "given", [{"distance": 10.0, "duration": 1.0}, {"distance": -5.0}, {"corner": 0.0},
-              {"outputs": ["wheel_load_9"]}]
-)  # fmt: skip
+@pytest.mark.parametrize("given", [
+    {"distance": 10.0, "duration": 1.0}, {"distance": -5.0}, {"distance": "x"}, {"duration": "x"},
+    {"corner": 0.0}, {"outputs": ["wheel_load_9"]},
+])  # fmt: skip
 def test_statistics_that_are_none_are_refused(given):
     with pytest.raises(InputError):
         output_statistics(paper_coach(1), 40.0, LOW, **given)
@@ -652,6 +652,11 @@ def test_tracks_that_are_none_are_refused_in_words(tmp_path):
         stochastic_ride(paper_coach(1), "fast", LOW)
     with pytest.raises(InputError, match="found 'Wx'"):
         stochastic_ride(paper_coach(1), 40.0, LOW, weight="Wx")
+    for track in (None, 5):
+        with pytest.raises(InputError, match=f"track: found {track!r}; expected the name of a spe"):
+            stochastic_ride(paper_coach(1), 40.0, track)
+    with pytest.raises(InputError, match="found None; expected one of"):
+        stochastic_ride(paper_coach(1), 40.0, LOW, weight=None)
     with pytest.raises(InputError, match="at: found 'x'"):
         third_octaves(paper_coach(1), 40.0, LOW, "x")
 

@@ -33,7 +33,7 @@ from railride.frequency import (
 )
 from railride.modal import Mode, modes
 from railride.numeric import Array
-from railride.quantities import several
+from railride.quantities import names, several
 from railride.spectra import check_speed
 from railride.vehicle import Output, VehicleModel
 
@@ -146,7 +146,7 @@ def bode(
     >>> bode(coach, source="f_1", outputs="secondary_2_deflection")[0].unit
     'm/N'
     """
-    signals, sources = _listed(outputs, "outputs"), _listed(source, "source")
+    signals, sources = names(outputs, "outputs"), names(source, "source")
     points = several(at, "at", "m")
     f = check_ascending(np.geomspace(*BAND_HZ, POINTS) if frequency is None else frequency)
     asked = _asked(model, signals, points, floor)
@@ -167,14 +167,6 @@ def bode(
                 )
             )  # fmt: skip
     return tuple(found)
-
-
-def _listed(names: str | Sequence[str], where: str) -> list[str]:
-    """One name or several as a list of at least one."""
-    listed = [names] if isinstance(names, str) else list(names)
-    if not listed:
-        raise InputError(f"{where}: found none; expected at least one name")
-    return listed
 
 
 def _speeds(source: str, speeds: float | Sequence[float] | None) -> Sequence[float | None]:

@@ -30,6 +30,7 @@ from railride.errors import InputError
 from railride.firstorder import first_order
 from railride.modal import refuse_unstable
 from railride.numeric import Array, Matrices
+from railride.quantities import names
 from railride.spectra import check_speed
 from railride.statespace import chosen_outputs
 from railride.vehicle import Output, VehicleModel
@@ -217,11 +218,10 @@ def frequency_response(
     import control
 
     f = check_ascending(np.geomspace(*BAND_HZ, POINTS) if frequency is None else frequency)
-    sources = [source] if isinstance(source, str) else list(source)
+    sources = names(source, "source")
     chosen = chosen_outputs(model, outputs)
-    if not sources or len(set(sources)) < len(sources):
-        raise InputError(f"source: found {', '.join(map(str, sources)) or 'none'}; expected at "
-                         "least one name, and none twice")  # fmt: skip
+    if len(set(sources)) < len(sources):
+        raise InputError(f"source: found {', '.join(map(str, sources))}; expected none twice")
     found = responses(model, chosen, sources, f, speed=speed, **changes)
     return control.FrequencyResponseData(
         found, 2 * np.pi * f, inputs=sources, outputs=[output.name for output in chosen],

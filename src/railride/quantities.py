@@ -5,7 +5,7 @@ And the numbers that a caller gives, checked likewise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import Field, fields
 from numbers import Real
 from typing import TYPE_CHECKING, Any
@@ -82,6 +82,19 @@ def check_number(faults: Faults, where: str, value: object, sign: str = "", unit
         faults.add(where, f"{value} {unit}".rstrip(), _EXPECTED[sign])
     else:
         faults.add(where, repr(value), _EXPECTED[sign], f"in {unit}" if unit else "")
+
+
+def names(values: object, where: str) -> list[Any]:
+    """One name, or several and at least one, as a list; InputError that names ``where`` otherwise.
+
+    >>> names("track", "source"), names(("w_1", "w_2"), "source")
+    (['track'], ['w_1', 'w_2'])
+    """
+    found = [values] if isinstance(values, str) else values
+    if not isinstance(found, Iterable) or not (listed := list(found)):
+        what = "none" if isinstance(found, Iterable) else repr(values)
+        raise InputError(f"{where}: found {what}; expected at least one name")
+    return listed
 
 
 def several(values: ArrayLike, where: str, unit: str = "SI units") -> list[float]:

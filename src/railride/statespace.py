@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike
 from railride.errors import InputError
 from railride.firstorder import first_order
 from railride.numeric import Array
+from railride.quantities import names
 from railride.vehicle import Output, VehicleModel
 
 if TYPE_CHECKING:
@@ -128,7 +129,7 @@ def chosen_outputs(
     chosen = []
     if outputs is None:
         outputs = "floor_acceleration"
-    for output in [outputs] if isinstance(outputs, Output | str) else outputs:
+    for output in [outputs] if isinstance(outputs, Output) else names(outputs, "outputs"):
         if not isinstance(output, Output) and output not in known:
             raise InputError(f"output: found {output!r}; expected one of {', '.join(known)}, or a "
                              "point of the floor from model.floor(at=…)")  # fmt: skip
@@ -136,11 +137,10 @@ def chosen_outputs(
             chosen.append(output)
         else:
             chosen.append(known[output] or model.floor())
-    names = [output.name for output in chosen]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice or not names:
-        found = f"{', '.join(twice)} twice" if twice else "none"
-        raise InputError(f"outputs: found {found}; expected each once, and at least one")
+    named = [output.name for output in chosen]
+    twice = sorted({name for name in named if named.count(name) > 1})
+    if twice:
+        raise InputError(f"outputs: found {', '.join(twice)} twice; expected each once")
     return chosen
 
 

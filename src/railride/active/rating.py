@@ -148,7 +148,7 @@ def _process(
 
 
 def rate_loops(
-    loops: Mapping[str, Loop] | Sequence[Loop],
+    loops: Loop | Mapping[str, Loop] | Sequence[Loop],
     speed: float,
     track: str | Path | Spectrum | Track,
     at: float | Sequence[float] = (0.0,),
@@ -160,7 +160,7 @@ def rate_loops(
 
     Parameters
     ----------
-    loops : designs by name, or designs with names of their own, all of one vehicle.
+    loops : a design, designs by name, or with names of their own, all of one vehicle.
     speed : V in m/s, > 0. track : a spectrum or its name, a track or its file.
     at : points of the floor, m forward of the body's middle. floor : "smooth" or "polygon".
     weight : a weighting or its name.
@@ -204,7 +204,7 @@ def rate_loops(
 
 
 def loop_spectra(
-    loops: Mapping[str, Loop] | Sequence[Loop],
+    loops: Loop | Mapping[str, Loop] | Sequence[Loop],
     speed: float,
     track: str | Path | Spectrum | Track,
     frequency: ArrayLike | None = None,
@@ -247,13 +247,15 @@ def loop_spectra(
     return table
 
 
-def _beside_passive(loops: Mapping[str, Loop] | Sequence[Loop]) -> dict[str, Loop]:
+def _beside_passive(loops: Loop | Mapping[str, Loop] | Sequence[Loop]) -> dict[str, Loop]:
     """The passive vehicle and the designs by name.
 
     Raises
     ------
     InputError : no loop, loops of different vehicles, two of one name.
     """
+    if isinstance(loops, Loop):
+        loops = [loops]
     pairs = [*(loops.items() if isinstance(loops, Mapping) else ((x.name, x) for x in loops))]
     if not pairs:
         raise InputError("loops: found none; expected at least one")

@@ -19,15 +19,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from railride.errors import InputError
+from railride.errors import Faults, InputError
 from railride.numeric import Array
+from railride.quantities import check_number
 from railride.spectra import Spectrum
 from railride.statespace import chosen_outputs
 from railride.stochastic.gains import PLAIN, Gain
@@ -105,8 +105,9 @@ def extremes(
     if outputs is None:
         outputs = [name for name in model.outputs if "deflection" in name or "load" in name]
     chosen = chosen_outputs(model, outputs)
-    if not (isfinite(corner) and corner > 0):
-        raise InputError(f"corner: found {corner:g} Hz; expected a finite frequency above 0")
+    faults = Faults("outputs")
+    check_number(faults, "corner", corner, "> 0", "Hz")
+    faults.raise_if_any()
     m, rows = in_hand(model, chosen, changes)
     gains = tuple(moment(gain, k) for gain in (PLAIN, low_pass(corner)) for k in (0, 2))
     places = model.vehicle.wheelset_positions
@@ -217,8 +218,10 @@ def _duration(speed: float, distance: float | None, duration: float | None) -> f
     """T in s; a distance takes as long as the vehicle needs for it."""
     if distance is not None and duration is not None:
         raise InputError("peak: found both a distance and a duration; expected one of them")
-    if duration is None:
-        duration = (1000.0 if distance is None else distance) / speed
-    if not (isfinite(duration) and duration > 0):
-        raise InputError(f"peak: found {duration:g} s; expected a finite duration above 0")
-    return float(duration)
+    faults = Faults("peak")
+    distance = 1000.0 if distance is None else distance
+    check_number(faults, "distance", distance, "> 0", "m")
+    if duration is not None:
+        check_number(faults, "duration", duration, "> 0", "s")
+    faults.raise_if_any()
+    return float(distance / speed if duration is None else duration)

@@ -70,6 +70,9 @@ def load_track(track: str | Path | Spectrum | Track, **reading: Any) -> Spectrum
     found: Spectrum | Track
     if isinstance(track, Spectrum | Track):
         found = track
+    elif not isinstance(track, str | Path):
+        raise InputError(f"track: found {track!r}; expected the name of a spectrum, a file, a "
+                         "Spectrum or a Track")  # fmt: skip
     elif is_file(track):
         table = read_table(track)
         if not holds_spectrum(table):

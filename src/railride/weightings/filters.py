@@ -192,7 +192,7 @@ def weighting(name: str | Weighting) -> Weighting:
         return name
     if name in _table():
         return _table()[name]
-    near = difflib.get_close_matches(name.capitalize(), weighting_names(), n=1)
+    near = difflib.get_close_matches(str(name).capitalize(), weighting_names(), n=1)
     mend = f"did you mean {near[0]}?" if near else ""
     raise InputError(
         str(Fault("weighting", repr(name), "one of " + ", ".join(weighting_names()), mend))
