@@ -135,7 +135,7 @@ def test_modes_from_a_table_beside_the_parameter_file(tmp_path):
     modes_table(tmp_path)
     vehicle = load_vehicle(vehicle_file(tmp_path, '[body.modes]\nfile = "modes.csv"'))
     model = derive_vehicle(vehicle)
-    assert (model.body.kind, model.body.mode_count) == ("modes", 5)
+    assert (model.body.kind, model.body.options) == ("modes", "--body fe --modes 5")
     own = replace(vehicle.body, mode_files=None, bending_stiffness=3e9)
     exact = derive_vehicle(replace(vehicle, body=own), body="beam", modes=5)
     np.testing.assert_allclose(model.bending_frequencies(), exact.bending_frequencies(), rtol=1e-6)

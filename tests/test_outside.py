@@ -161,6 +161,23 @@ def test_small_contradictions_are_said():
     assert "a uniform lift and mode 1 have 0.049 of their own products in common" in remark
 
 
+@pytest.mark.parametrize(
+    ("factor", "words"),
+    [(1000.0, r"modal masses: found heights up to 0\.06"), (0.001, "heights up to 6")],
+)
+def test_modal_masses_in_another_unit_are_refused(factor, words):
+    given = points()[0]
+    with pytest.raises(InputError, match=words):
+        outside_modes(replace(given, modal_masses=given.modal_masses * factor), BODY)
+
+
+def test_a_modal_mass_of_another_scale_is_doubted():
+    given = points()[0]
+    scaled = replace(given, modal_masses=given.modal_masses * [1, 1, 0.01, 1])
+    (remark,) = outside_modes(scaled, BODY).remarks
+    assert remark.startswith("mode 3 reaches 20, scaled to")
+
+
 def test_modes_of_a_supported_body_are_doubted():
     shape = np.cos(np.pi * X / 17.5)  # pinned at the bogies, and so not free
     given = PointModes("modes", X, [9.0], [MASS / 2], [shape + 0.5])

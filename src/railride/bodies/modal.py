@@ -43,6 +43,7 @@ from railride.parameters import Load
 
 r_c = sp.Symbol("r_c", positive=True)
 TITLES = {"beam": "beam", "fe": "finite elements", "modes": "given modes"}
+OPTIONS = {"modes": "fe"}  # what --body calls a kind of another name
 OUTLINE = 81  # points in a drawing
 
 
@@ -88,7 +89,7 @@ class ModalBody(BodyModel):
     @property
     def options(self) -> str:
         """Kind and number of modes."""
-        return f"--body {self.kind} --modes {self.modes.count}"
+        return f"--body {OPTIONS.get(self.kind, self.kind)} --modes {self.modes.count}"
 
     @property
     def mode_count(self) -> int:

@@ -33,6 +33,7 @@ AGREE = 0.01  # of mass, inertia and length: so near the vehicle's own
 COMMON = 0.1  # of two motions' own products: more than lumping the mass leaves in common
 NOTED = 0.01  # of these, or of a shape's largest value: more is said
 EVEN = 0.3  # of the body's momentum: more than an uneven distribution of the mass explains
+HEIGHTS = (1.0, 10.0)  # least of the highest mode and most of the lowest: a free beam's are 2
 FIRST = (2.0, 60.0)  # Hz, between which the first bending of a car body lies
 
 
@@ -65,6 +66,7 @@ def outside_modes(
     hertz = points.frequencies[points.flexible]
     scale = np.sqrt(body.mass / points.modal_masses[points.flexible])
     shapes = scale[:, np.newaxis] * points.shapes[points.flexible]
+    _check_scale(points, shapes, faults, remarks)
     _check_products(points, body, shapes, faults, remarks)
     _check_spacing(points, shapes, faults, remarks)
     faults.raise_if_any()
@@ -143,14 +145,30 @@ def _compare(what: str, found: dict[str, float], body: CarBody, faults: Faults) 
                        "is a unit wrong?" if wrong else "")  # fmt: skip
 
 
+def _check_scale(points: PointModes, shapes: Array, faults: Faults, remarks: list[str]) -> None:
+    """Note shapes whose modal masses cannot belong to them: scaled, a free beam's reach 2."""
+    largest = np.abs(shapes).max(axis=1)
+    low, high = HEIGHTS
+    if largest.max() < low or largest.min() > high:
+        faults.add("modal masses", f"heights up to {largest.max():.3g} of modes scaled to the car "
+                   "body's mass", "about 2, as of a free beam",
+                   "modal masses in another unit, or of shapes in another scale?")  # fmt: skip
+        return
+    remarks += [
+        f"mode {i + 1} reaches {height:.3g}, scaled to the car body's mass: is its modal mass that "
+        "of its shape?"
+        for i, height in zip(points.flexible, largest, strict=True)
+        if height > high
+    ]
+
+
 def _check_products(
     points: PointModes, body: CarBody, shapes: Array, faults: Faults, remarks: list[str]
 ) -> None:
     """Note motions that are not orthogonal by the point masses, or hardly can be without them."""
     names = [HEAVE, PITCH, *(f"mode {i + 1}" for i in points.flexible)]
     if points.point_masses is None:
-        step = np.gradient(points.x)
-        momentum = np.abs(shapes @ step) / step.sum()
+        momentum = np.abs(np.trapezoid(shapes, points.x)) / np.ptp(points.x)
         remarks += [
             f"{names[i + 2]} would move the mass centre by {momentum[i]:.2g} times its coordinate "
             "if the mass were spread evenly: is it a mode of the free body?"
