@@ -111,6 +111,12 @@ def test_ends_beyond_the_points_are_straight():
     np.testing.assert_allclose(end, np.abs(exact.shapes([-L / 2, L / 2])[:3]), rtol=0.01)
 
 
+def test_points_that_end_far_from_the_ends_are_said():
+    given = points(x=np.linspace(-9, 9, 37))[0]
+    (remark,) = outside_modes(given, BODY, attachments=(8.75, -8.75), count=3).remarks
+    assert "beyond x = -9 and 9 m" in remark
+
+
 @pytest.mark.parametrize("body", [BODY, UNEVEN], ids=["even", "uneven"])
 def test_point_masses_pass_true_modes(body):
     profile = PROFILE if body is UNEVEN else BodyProfile((-12, 12), (3e9, 3e9), (MU, MU))
@@ -245,6 +251,7 @@ def test_rigid_motions_of_another_body_are_refused(changes, words):
         ({"modal_masses": [1, 0, 1, 1]}, "mode 2, modal_masses: found 0 kg; expected a positive"),
         ({"frequencies": [9, -1, 30, 40]}, "mode 2, frequencies: found -1 Hz"),
         ({"damping": [0, 0, -0.1, 0]}, r"mode 3, damping: found -0\.1; expected a number of at"),
+        ({"point_masses": np.zeros(49)}, "point_masses: found zeros only"),
         ({"shapes": np.ones((3, 49))}, r"shapes: found an array of shape \(3, 49\)"),
         ({"shapes": np.full((4, 49), np.nan)}, "no finite number"),
         ({"frequencies": [0.0, 9, 30, 40]}, r"mode 1: found 0 Hz, and a shape that departs"),

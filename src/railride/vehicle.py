@@ -327,6 +327,7 @@ def derive_vehicle(
     vehicle = replace(vehicle, body=_bent(vehicle.body, *given.values()))
     try:
         attachments = [bogie.position for bogie in vehicle.bogies]
+        attachments += [each.position for each in vehicle.equipment]
         model = body_model(vehicle.body, body, segments, modes, attachments)
     except InputError as error:
         raise InputError(f"{vehicle.name}: {error}") from None

@@ -70,6 +70,9 @@ def outside_modes(
     _check_products(points, body, shapes, faults, remarks)
     _check_spacing(points, shapes, faults, remarks)
     faults.raise_if_any()
+    if body.length / 2 - min(-points.x[0], points.x[-1]) > 2 * np.diff(points.x).max():
+        remarks.append(f"beyond x = {points.x[0]:g} and {points.x[-1]:g} m the modes are not "
+                       "known and go on as straight lines")  # fmt: skip
     if not FIRST[0] <= hertz[0] <= FIRST[1]:
         remarks.append(f"the first bending of the car body is at {hertz[0]:.3g} Hz: is a unit "
                        "wrong?")  # fmt: skip
@@ -168,7 +171,8 @@ def _check_products(
     """Note motions that are not orthogonal by the point masses, or hardly can be without them."""
     names = [HEAVE, PITCH, *(f"mode {i + 1}" for i in points.flexible)]
     if points.point_masses is None:
-        momentum = np.abs(np.trapezoid(shapes, points.x)) / np.ptp(points.x)
+        x = np.linspace(-body.length / 2, body.length / 2, 401)
+        momentum = np.abs(_interpolated(points.x, shapes)[0](x).mean(axis=1))
         remarks += [
             f"{names[i + 2]} would move the mass centre by {momentum[i]:.2g} times its coordinate "
             "if the mass were spread evenly: is it a mode of the free body?"

@@ -129,6 +129,9 @@ class PointModes:
                     found = f"{value:g} {unit}".rstrip()
                     faults.add(f"{what} {i}, {quantity}", found, expected)
 
+        if self.point_masses is not None and not self.point_masses.any():
+            faults.add("point_masses", "zeros only", "the body's mass, shared among the points")
+
     def _check_rigid(self, faults: Faults) -> None:
         numbers = np.flatnonzero(self.rigid)
         if self.rigid.all():
