@@ -91,6 +91,36 @@ def test_dialects(read, name):
     assert table.where(0, table.columns[2]) == f"row {first}, column 'z'"
 
 
+TEXTS = {  # the cells of three rows before the only number of each
+    "date and time": ["2024-01-31", "12:00:00.010"],
+    "name of a line": ["A1", "12+900.25"],
+    "name with a blank": ["Oxford north", "12:00:00"],
+    "name with a number": ["Line 5", "12+900.25"],
+    "time of twelve hours": ["01/31/2024 12:00:00.010 PM"],
+    "date and time in one": ["2024-01-31 12:00:00.010"],
+    "time with its zone": ["2024-01-31T12:00:00.010+01:00"],
+    "three names": ["A", "B", "C"],
+}
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_more_cells_of_text_than_numbers(read, name, separator):
+    texts = TEXTS[name]
+    rows = [[*(f"h{j}" for j in range(len(texts))), "z"]] + [[*texts, z] for z in ("0.5", "-1")]
+    table = read("".join(separator.join(row) + "\n" for row in rows))
+    assert [c.heading for c in table.columns] == rows[0]
+    assert table.column("z").numbers.tolist() == [0.5, -1.0]
+    assert [list(c.cells) for c in table.columns[:-1]] == [[text] * 2 for text in texts]
+
+
+@pytest.mark.parametrize("text", ["A1", "12+900.25", "2024-01-31", "31.01.2024 12:00:00,010"])
+def test_decimal_commas_beside_a_text(read, text):
+    table = read(f"a;y;z\n{text};0,5;2,5\n{text};-1,5;3,5\n")
+    assert table.column("y").numbers.tolist() == [0.5, -1.5]
+    assert list(table.column("a").cells) == [text] * 2
+
+
 def test_a_line_of_units_below_the_header(read):
     table = read(
         "Time;ACC x;ACC z;n\ns;m/s2;[g];-\n" + BODY.replace(",", ";").replace("\n", ";0\n")

@@ -6,16 +6,15 @@ and metadata are, and others spread over the whole file.
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from railride.errors import Faults
+from railride.tables.separators import cells_or_none, find_separator
 from railride.tables.table import DECIMAL_COMMA, DECIMAL_POINT, is_missing
 
-_SEPARATORS = ("\t", ";", ",", " ")
 _COMMENT = re.compile(r"\s*(?:#|%|//)+\s*")
 # Units of a line of its own that data/units.txt does not hold.
 _OTHER_UNITS = frozenset("g V mV A mA °C bar ‰ - – # counts".split())
@@ -50,26 +49,6 @@ class Dialect:
         return DECIMAL_COMMA if self.comma else DECIMAL_POINT
 
 
-def split_cells(line: str, separator: str) -> list[str]:
-    """Cells of one line, without quotes and outer blanks.
-
-    line: without its end.
-    separator: of :class:`Dialect`.
-
-    Raises csv.Error for quotes that are not closed on the line, or closed before the cell ends.
-
-    >>> split_cells('1.5, "Oxford, W" ,2', ",")
-    ['1.5', 'Oxford, W', '2']
-    """
-    if '"' not in line:  # far quicker, and most files have no quotes
-        return [c.strip() for c in line.split(separator)] if separator != " " else line.split()
-    if separator == " ":
-        line = line.strip().replace("\t", " ")
-    line = re.sub(rf'" +(?={re.escape(separator)}|$)', '"', line) if separator != " " else line
-    cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True))
-    return [cell.strip() for cell in cells]
-
-
 def find_dialect(head: Sequence[Line], spread: Sequence[Line], comments: Sequence[Line],
                  faults: Faults) -> Dialect:  # fmt: skip
     """Work out the layout.
@@ -81,8 +60,8 @@ def find_dialect(head: Sequence[Line], spread: Sequence[Line], comments: Sequenc
     faults: of the file; raised where there are no numbers, or the header does not fit the rows.
     """
     texts = [text for _, text in (*head, *spread)]
-    separator = max(_SEPARATORS, key=lambda s: _score(texts, s))
-    rows = [_cells_or_none(text, separator) for text in texts]
+    separator = find_separator(texts)
+    rows = [cells_or_none(text, separator) for text in texts]
     if not any(rows):
         faults.add(f"row {head[0][0]}", UNCLOSED, "pairs of quotes", "mend that row")
         faults.raise_if_any()
@@ -120,7 +99,7 @@ class _Layout:
 
     def dialect(self, head: list[Line], comments: Sequence[Line], faults: Faults) -> Dialect:
         """Find the header among the lines before the first row of numbers."""
-        split = [(row, _cells_or_none(text, self.separator) or [text]) for row, text in head]
+        split = [(row, cells_or_none(text, self.separator) or [text]) for row, text in head]
         first = self._first_data([cells for _, cells in split])
         if first == len(split):
             faults.add(f"row {head[0][0]} and below", "no row of numbers", "a table of numbers")
@@ -203,7 +182,7 @@ class _Layout:
         row = split[first][0]
         for at, text in reversed([c for c in comments if c[0] < row]):
             bare = _COMMENT.sub("", text, count=1)
-            cells = _cells_or_none(bare, self.separator) or []
+            cells = cells_or_none(bare, self.separator) or []
             if self._fits(cells) and not self._is_data(cells):
                 return self._made(self._headings(cells), (), at, row)
         before = split[first - 1] if first else (0, [""])
@@ -211,7 +190,7 @@ class _Layout:
         if first and len(before[1]) == 1 and width == 2 and self._one_column(split[first:]):
             layout = _Layout(";", True, 1, (0,), 1)
             return layout._made(before[1], (), before[0], row)
-        if _cells_or_none(before[1][0], self.separator) is None:
+        if cells_or_none(before[1][0], self.separator) is None:
             faults.add(f"row {before[0]}", UNCLOSED, "pairs of quotes", "mend the header")
         elif len(before[1]) > 1:
             faults.add(
@@ -250,23 +229,6 @@ class _Layout:
 
 def _is(number: re.Pattern[str], cell: str) -> bool:
     return number.fullmatch(cell) is not None
-
-
-def _cells_or_none(line: str, separator: str) -> list[str] | None:
-    try:
-        return split_cells(line, separator)
-    except csv.Error:
-        return None
-
-
-def _score(lines: Sequence[str], separator: str) -> int:
-    """How well a separator makes numbers: cells that are some, less those that are text."""
-    score = 0
-    for line in lines:
-        for cell in _cells_or_none(line, separator) or [line]:
-            numeric = _is(DECIMAL_POINT, cell) or _is(DECIMAL_COMMA, cell)
-            score += 1 if numeric else -(not is_missing(cell))
-    return score
 
 
 def _decimal_comma(rows: Sequence[list[str]]) -> bool:

@@ -20,8 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from railride.errors import Faults, RowFaults
-from railride.tables.dialect import DECIMAL_COMMAS, UNCLOSED, Dialect, find_dialect, split_cells
+from railride.tables.dialect import DECIMAL_COMMAS, UNCLOSED, Dialect, find_dialect
 from railride.tables.encoding import read_utf8
+from railride.tables.separators import split_cells
 from railride.tables.table import Column, Numbers, NumberTable, numbers_of, split_heading
 
 if TYPE_CHECKING:
