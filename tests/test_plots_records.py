@@ -79,9 +79,24 @@ def test_a_row_for_every_axis():
     figure = plots.plot_record_rating(rating(gap=True))
     assert len(figure.get_axes()) == 6
     titles = [ax.get_title(loc="left") for ax in figure.get_axes()]
-    assert any(title.startswith("floor (z): ") for title in titles)
-    assert any(title.startswith("y: ") for title in titles)
+    assert "y: a_wrms 0.0724 m/s², ISO 2631-1 Annex C: not uncomfortable" in titles
     assert "run.csv: 17.5 s at 200 Hz" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "words"),
+    [
+        (1.23, "fairly uncomfortable or uncomfortable"),
+        (1.65, "uncomfortable"),
+        (0.1, "not uncomfortable"),
+    ],
+)
+def test_the_title_names_the_scale_and_every_class_that_fits(amplitude, words):
+    tone = amplitude * np.sin(2 * np.pi * 8.0 * np.arange(4000) / RATE)
+    found = rate_record(AccelerationRecord("run", RATE, (0.0,), (Axis("floor", "z", (tone,)),)))
+    title = plots.plot_record_rating(found).get_axes()[0].get_title(loc="left")
+    a_w = found.axes[0].indices.a_wrms
+    assert title == f"floor (z): a_wrms {a_w:.3g} m/s², ISO 2631-1 Annex C: {words}"
 
 
 def test_silence_can_be_drawn(tmp_path):

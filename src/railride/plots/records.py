@@ -10,6 +10,7 @@ import numpy as np
 from railride.comfort.third_octaves import band_edges, third_octave_rms
 from railride.errors import InputError
 from railride.plots import canvas
+from railride.scales import ISO_2631_1_ANNEX_C
 from railride.spectra import FloatArray
 
 if TYPE_CHECKING:
@@ -138,7 +139,12 @@ def plot_record_rating(rating: RecordRating) -> Figure:
         places["record"].set_xlabel("")
         named = f"{column} ({axis.axis.direction})" if axis.axis.direction not in (None, column) \
             else column  # fmt: skip
-        places["record"].set_title(f"{named}: {axis.level}", **canvas.TITLE)
+        scale = ISO_2631_1_ANNEX_C.name
+        places["record"].set_title(
+            f"{named}: a_wrms {axis.indices.a_wrms:.3g} m/s², {scale}: "
+            f"{' or '.join(axis.levels[scale])}",
+            **canvas.TITLE,
+        )
         places["spectrum"].set_title("spectrum", **canvas.TITLE)
     figure.suptitle(f"{rating.record.name}: {rating.duration:.4g} s at {rating.record.rate:.5g} Hz")
     return figure
