@@ -15,6 +15,7 @@ from railride.comfort.dose import dose, pooled_vdv
 from railride.comfort.peaks import oversampling, peak
 from railride.comfort.running import mtvv
 from railride.comfort.sperling import Direction, sperling_rms, wz_from_rms
+from railride.comfort.start import held_rms, start_remark
 from railride.errors import Fault, InputError
 from railride.scales import levels, paper_level
 from railride.weightings import (
@@ -96,7 +97,7 @@ def indices(
     rated = _rated(section, pieces)
     chosen, seconds = weighting(weight), np.array([piece.size / rate for piece in pieces])
     least = next(t for t in (FEW_PERIODS, SHORTEST, 0.0) if seconds.max() >= t)
-    parts, weighted = [], []
+    parts, weighted, held = [], [], list[float]()
     for piece, lasting in zip(pieces, seconds, strict=True):
         fine = apply_weighting(
             chosen, piece, rate, before=before, oversampling=(times := oversampling(rate))
@@ -106,9 +107,10 @@ def indices(
         if lasting >= least:
             found = fine[rated.start * times : (min(rated.stop, piece.size) - 1) * times + 1]
             parts.append(_part(piece[rated], weighted[-1][rated], found, rate, direction))
-    return _pooled(
-        parts, chosen.name, tuple(weighted), (band_remark(chosen, rate), _left_out(seconds, least))
-    )
+            if before is None:
+                held.append(held_rms(piece, weighted[-1], rate, chosen, rated))
+    said = (band_remark(chosen, rate), _left_out(seconds, least), _on_start(parts, held))
+    return _pooled(parts, chosen.name, tuple(weighted), said)
 
 
 def pieces_of(record: ArrayLike | Sequence[FloatArray], rate: float) -> list[FloatArray]:
@@ -200,6 +202,16 @@ def _pooled(
         wz=float(wz_from_rms(pooled_rms(a_b, seconds))) if a_b else None,
         remarks=tuple(remark for remark in remarks if remark),
         weighted=weighted,
+    )
+
+
+def _on_start(parts: list[_Part], held: list[float]) -> str | None:
+    """Whether the unknown start decides; ``held`` is empty where what came before is known."""
+    if not held:
+        return None
+    seconds = [part.seconds for part in parts]
+    return start_remark(
+        pooled_rms([part.a_wrms for part in parts], seconds), pooled_rms(held, seconds)
     )
 
 
