@@ -389,7 +389,10 @@ def test_binary_files_hold_tracks_too(tmp_path):
     savemat(tmp_path / "a.mat", {"distance_m": X, "level_mm": W})
     with h5py.File(tmp_path / "a.h5", "w") as file:
         file["distance_m"], file["level_mm"] = X, W
-    for name in ("a.parquet", "a.mat", "a.h5"):
+    savemat(tmp_path / "struct.mat", {"track": {"distance_m": X, "level_mm": W}})
+    with h5py.File(tmp_path / "group.h5", "w") as file:
+        file["run/distance_m"], file["run/level_mm"] = X, W
+    for name in ("a.parquet", "a.mat", "a.h5", "struct.mat", "group.h5"):
         track = read_track(tmp_path / name)
         assert track.step == 0.25
         assert track.name == name

@@ -592,6 +592,19 @@ def test_every_format_gives_the_same_record(tmp_path):
         assert record.remarks == ()
 
 
+def test_columns_of_a_struct_or_a_group_are_found_by_the_end_of_their_path(tmp_path):
+    savemat(tmp_path / "a.mat", {"data": {"time": T, "az": f(T)}})
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["run1/time"], file["run1/az"] = T, f(T)
+    for name in ("a.mat", "a.h5"):
+        for columns in ((), ("az",)):
+            record = read_record(tmp_path / name, columns=columns, unit="g")
+            assert record.rate == pytest.approx(RATE)
+            (axis,) = record.axes
+            assert (axis.column.split("/")[1], axis.direction) == ("az", "z")
+            assert record.remarks == ()
+
+
 def test_a_rate_against_the_one_of_the_file_is_told(tmp_path):
     wavfile.write(tmp_path / "a.wav", 100, f(T))
     record = read_record(tmp_path / "a.wav", rate=200.0, unit="m/s^2")

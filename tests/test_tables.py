@@ -385,6 +385,24 @@ def test_matlab(tmp_path):
     assert "'short' differ in length" in table.remarks[0]
 
 
+def test_the_end_of_a_path_names_a_column_where_no_other_ends_so(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for name in ("a/time", "b/time", "a/acc_z [g]", "b/Speed", "speed"):
+            file[name] = Z
+    table = read_table(tmp_path / "a.h5")
+    assert [c.heading for c in table.find("acc z")] == ["a/acc_z [g]"]
+    assert table.column("ACC_Z").heading == "a/acc_z [g]"
+    assert table.column("b/time").heading == "b/time"
+    assert [c.heading for c in table.find("speed")] == ["speed"]  # the whole name counts first
+    assert table.find("time") == ()
+    with pytest.raises(InputError, match="2 columns of that name.*in full: 'a/time' or 'b/time'"):
+        table.column("time")
+
+
+def test_a_stroke_in_a_text_s_heading_makes_no_path(read):
+    assert read("t,x/z\n1,2\n2,3\n").find("z") == ()
+
+
 def test_hdf5(tmp_path):
     with h5py.File(tmp_path / "a.h5", "w") as file:
         group = file.create_group("acc")

@@ -128,7 +128,7 @@ def _found(columns: list[Column], faults: Faults, remarks: list[str]) -> list[Co
 
 
 def _is_called_time(column: Column) -> bool:
-    return " ".join(re.findall(r"[^\W_]+", column.name.lower())) in _TIMES
+    return " ".join(re.findall(r"[^\W_]+", column.end.lower())) in _TIMES
 
 
 def direction(column: Column) -> AxisName | None:

@@ -127,6 +127,11 @@ class Column:
 
         return cls(heading, name, unit, numbers_of(values), read_cells)
 
+    @property
+    def end(self) -> str:
+        """The name's last part, where it is a path of structs or groups: ``run/time`` is a time."""
+        return self.name.rpartition("/")[2]
+
     @cached_property
     def cells(self) -> Sequence[str]:
         """The texts of all cells (n,), without quotes and outer blanks; read when first used."""
@@ -180,10 +185,22 @@ class NumberTable:
     def find(self, *names: str) -> tuple[Column, ...]:
         """Columns whose heading or name is one of ``names``, case, ``_`` and ``.`` aside, in order.
 
-        names: such as ``"time"``, ``"acc z"``; matched as a whole.
+        names: such as ``"time"``, ``"acc z"``; matched as a whole. Where there is none, the end of
+            a path (of a struct or a group) will do, if no other path ends so.
         """
         wanted = {_plain(name) for name in names}
-        return tuple(c for c in self.columns if {_plain(c.heading), _plain(c.name)} & wanted)
+        found = tuple(c for c in self.columns if {_plain(c.heading), _plain(c.name)} & wanted)
+        ends = [found[0] for end, found in self._ends.items() if end in wanted and len(found) == 1]
+        return found or tuple(c for c in self.columns if c in ends)
+
+    @cached_property
+    def _ends(self) -> dict[str, list[Column]]:
+        """Last part of a path → the columns that have it; none in texts, which have no paths."""
+        ends: dict[str, list[Column]] = {}
+        for column in self.columns if self.rows is None else ():
+            if "/" in column.heading:
+                ends.setdefault(_plain(column.end), []).append(column)
+        return ends
 
     def column(self, name: str) -> Column:
         """The one column with that heading, or else with that name (see :meth:`find`).
@@ -193,12 +210,16 @@ class NumberTable:
         Raises InputError where there is none, with the nearest headings, or more than one.
         """
         found = [c for c in self.columns if c.heading == name] or list(self.find(name))
+        found = found or self._ends.get(_plain(name), [])
         if len(found) == 1:
             return found[0]
         where, headings = f"column {name!r}", [c.heading for c in self.columns]
         if found:
             twice = f"{len(found)} columns of that name"
-            fault = Fault(where, twice, "one", "give the others another heading")
+            shown = " or ".join(repr(c.heading) for c in found[:4])
+            paths = len({c.heading for c in found}) > 1
+            mend = f"give it in full: {shown}" if paths else "give the others another heading"
+            fault = Fault(where, twice, "one", mend)
         else:
             listed = ", ".join(map(repr, headings[:12]))
             listed += f" and {len(headings) - 12} more" if len(headings) > 12 else ""

@@ -1,7 +1,7 @@
 """What the heading of a column says: distance or level, which rail, filtered to which band.
 
 Only whole headings that are known count, so that "cross level" is no level. A name may come after
-that of its group, "TG Master.Vasen Korkeuspoikkeama D1". A chord offset (versine) is no level: a
+that of its group, "TG Master.Vasen Korkeuspoikkeama D1" or "run/level". A chord offset (versine) is no level: a
 chord of length 2a takes the level w to w(x) − (w(x − a) + w(x + a))/2, which passes a wave by
 1 − cos(Omega a): none of some wavelengths and twice of others.
 """
@@ -53,6 +53,8 @@ def meaning(name: str) -> Meaning:
 
     >>> meaning("TG Master.Vasen Korkeuspoikkeama D1")
     Meaning(kind='level', rail='left', band='D1')
+    >>> meaning("run 1/level").kind, meaning("mean left/right level").kind
+    ('level', '')
     >>> meaning("leftRailLevel"), meaning("cross level").kind, meaning("Versine 10 m").kind
     (Meaning(kind='level', rail='left', band=''), '', 'chord')
     """
@@ -62,7 +64,7 @@ def meaning(name: str) -> Meaning:
         return Meaning("chord")
     if _STATISTIC.search(" ".join(words)):
         return Meaning("statistic")
-    for text in (spaced, spaced.rpartition(".")[2]):
+    for text in (spaced, re.split(r"[./]", spaced)[-1]):
         words = _words(text)
         if " ".join(words) in _DISTANCES:
             return Meaning("distance")
@@ -72,6 +74,8 @@ def meaning(name: str) -> Meaning:
         rest = [word for word in words if word not in aside and word.upper() not in bands]
         if " ".join(rest) in _LEVELS and len(rails) <= 1 and len(bands) <= 1:
             return Meaning("level", "".join(rails), "".join(bands))
+        if len(set(rails)) > 1:  # "left/right level" is of both
+            break
     return Meaning("")
 
 

@@ -72,11 +72,11 @@ def apply_weighting(
     ``before`` (m/s²; 0 = from rest). Without it, what came before is predicted from the record's
     own first 10 s (:mod:`railride.weightings.prediction`), about its own mean. An offset such as
     gravity then leaves no step and a steady tone no transient; for random vibration the first
-    half second is uncertain by some tenths of the r.m.s., and slow motion by more: stretches of 20 s
-    of a metro's record came out up to 0.4 % off what they are within it with W_k on z, and up to
-    14 % with W_d on y (:mod:`railride.comfort.start` tells where it matters). The filter being
-    causal, nothing after the last sample matters, but the record goes on there in the same way,
-    which keeps its end from ringing.
+    half second is uncertain by some tenths of the r.m.s., and slow motion by more: stretches of
+    20 s of a metro's record came out up to 0.4 % off what they are within it with W_k on z, and up
+    to 14 % with W_d on y (the comfort indices tell where it matters). The filter being causal,
+    nothing after the last sample matters, but the record goes on there in the same way, which keeps
+    its end from ringing.
 
     Raises :class:`InputError` for values that are not finite and a rate that is not positive.
     """
