@@ -73,6 +73,15 @@ def test_a_measured_track_is_compared_with_every_standard_spectrum(result, car):
     assert found["d2_rms_mm"] is None  # filtered to D1
 
 
+def test_a_written_track_has_no_value_where_its_spectrum_had_none(result, tmp_path):
+    made = result("track", "--spectrum", "sncf_poor", "--write", str(tmp_path / "s.csv"))
+    read = result("track", str(tmp_path / "s.csv"))
+    assert made["d2_rms_mm"] is None
+    assert read["d2_rms_mm"] is None
+    assert read["d1_rms_mm"] == made["d1_rms_mm"]
+    assert any("of wavelengths 1.99" in remark for remark in read["remarks"])
+
+
 def test_the_table_shows_the_best_fit_first(run, car):
     code, out, err = run("track", car)
     assert code == 0, err

@@ -395,7 +395,7 @@ def test_the_end_of_a_path_names_a_column_where_no_other_ends_so(tmp_path):
     assert table.column("b/time").heading == "b/time"
     assert [c.heading for c in table.find("speed")] == ["speed"]  # the whole name counts first
     assert table.find("time") == ()
-    with pytest.raises(InputError, match="2 columns of that name.*in full: 'a/time' or 'b/time'"):
+    with pytest.raises(InputError, match=r"2 columns of that name.*in full: 'a/time' or 'b/time'"):
         table.column("time")
 
 

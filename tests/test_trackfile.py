@@ -14,9 +14,10 @@ from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
 from railride.errors import InputError
-from railride.spectra import D1, spectrum
+from railride.spectra import D1, D2, spectrum, spectrum_names
 from railride.track import Track, synthesise
 from railride.trackfile import read_track, write_track
+from railride.trackfile.limits import shown_band
 
 X = np.arange(12) * 0.25
 W = np.round(0.004 * np.sin(X) - 0.001 * X, 6)
@@ -107,6 +108,38 @@ def test_a_round_step_comes_back_exactly(tmp_path):
     assert again.step == 0.05
     assert np.array_equal(again.distance, track.distance)
     assert again.elevation(123.456) == track.elevation(123.456)
+
+
+BANDS = {name: spectrum(name).active_band for name in spectrum_names()}
+
+
+@pytest.mark.parametrize("name", BANDS)
+@pytest.mark.parametrize(("length", "step"), [(999.9, 0.25), (2500.0, 0.3)])
+def test_a_written_track_keeps_the_band_of_its_spectrum(tmp_path, name, length, step):
+    for seed in (1, 2, 3):
+        track = synthesise(name, length, step, seed)
+        write_track(track, tmp_path / "track.csv")
+        again = read_track(tmp_path / "track.csv")
+        period = step * track.level.size
+        short, long = BANDS[name] or (0.0, np.inf)
+        if short <= 2 * step and long >= period:
+            assert again.band is None
+            assert again.remarks == ()
+            continue
+        assert again.band[0] == pytest.approx(max(short, 2 * step), rel=2 * short / period)
+        assert again.band[1] == pytest.approx(min(long, period), rel=2 * long / period)
+        assert again.covers(*D1) == track.covers(*D1)
+        assert again.covers(*D2) == track.covers(*D2)
+        assert "its spectrum is zero beyond them" in again.remarks[0]
+
+
+def test_a_level_without_a_band_of_its_own_shows_none():
+    x = np.arange(4000) * 0.25
+    tones = np.sin(2 * np.pi * x / 10.0) + 0.3 * np.sin(2 * np.pi * x / 40.0)
+    noise = np.random.default_rng(1).standard_normal(x.size)
+    narrow = synthesise("sncf_poor", 1000.0, 0.25, 1).level
+    for level in (tones, noise, np.zeros(x.size), narrow[:-7], np.round(narrow, 6)):
+        assert shown_band(level, 0.25) is None
 
 
 def test_a_file_that_cannot_be_written_is_a_fault_and_leaves_nothing(tmp_path):

@@ -1,9 +1,9 @@
 """What the heading of a column says: distance or level, which rail, filtered to which band.
 
 Only whole headings that are known count, so that "cross level" is no level. A name may come after
-that of its group, "TG Master.Vasen Korkeuspoikkeama D1" or "run/level". A chord offset (versine) is no level: a
-chord of length 2a takes the level w to w(x) − (w(x − a) + w(x + a))/2, which passes a wave by
-1 − cos(Omega a): none of some wavelengths and twice of others.
+that of its group, "TG Master.Vasen Korkeuspoikkeama D1" or "run/level". A chord offset (versine) is
+no level: a chord of length 2a takes the level w to w(x) − (w(x − a) + w(x + a))/2, which passes a
+wave by 1 − cos(Omega a): none of some wavelengths and twice of others.
 """
 
 from __future__ import annotations

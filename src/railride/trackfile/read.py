@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from railride.errors import Faults, InputError, RowFaults
-from railride.spectra import Spectrum, holds_spectrum, is_file, spectrum, spectrum_of
+from railride.spectra import FloatArray, Spectrum, holds_spectrum, is_file, spectrum, spectrum_of
 from railride.tables import NumberTable, read_table
 from railride.track import Track
 from railride.trackfile.columns import Asked, Chosen, choose
 from railride.trackfile.headings import BANDS
 from railride.trackfile.levels import check_departure, doubts, levels_of
+from railride.trackfile.limits import shown_band
 from railride.trackfile.locations import locations
 from railride.trackfile.spacing import Spacing, on_even_grid, spaced, stepped
 
@@ -45,9 +46,10 @@ def read_track(
 
     Distances that fall throughout are run as they were recorded, with a minus sign. Small
     unevenness counts as rounding, steps of half to one and a half times the median are resampled by
-    a spline. A level headed D1, D2 or D3 gives the track that band. The track's ``remarks`` tell of
-    all this, of dropouts and spikes that are kept, counters of kilometres that were set right, and
-    a level that looks a thousand times too large or too small, or lies far from zero.
+    a spline. A level headed D1, D2 or D3 gives the track that band, and so does a level whose
+    spectrum is zero beyond one, as that of a track made from a spectrum. The track's ``remarks``
+    tell of all this, of dropouts and spikes that are kept, counters of kilometres that were set
+    right, and a level that looks a thousand times too large or too small, or lies far from zero.
 
     Raises InputError naming row and column: what :func:`railride.tables.read_table` raises; columns
     missing, several or without a unit; fewer than 8 rows; text, blank cells, NaN or infinity among
@@ -113,7 +115,8 @@ def _track(table: NumberTable, asked: Asked) -> Track:
     step, even, said = asked.step, level, []
     if step is None:
         step, even, said = on_even_grid(table, spacing.distance, level)
-    remarks += [*said, *doubts(table, chosen.levels[0], level, step), *_on_band(chosen)]
+    band, on_band = _band(chosen, even, step)
+    remarks += [*said, *doubts(table, chosen.levels[0], level, step), *on_band]
     name = Path(table.source).name
     found = Track(
         distance0=float(spacing.distance[0]),
@@ -121,7 +124,7 @@ def _track(table: NumberTable, asked: Asked) -> Track:
         level=even,
         name=name,
         source=table.source,
-        band=BANDS.get(chosen.band),
+        band=band,
         remarks=tuple(f"{name}: {remark}" for remark in remarks),
     )
     return found.reversed() if asked.reverse else found
@@ -136,8 +139,19 @@ def _spacing(table: NumberTable, chosen: Chosen, asked: Asked, bad: RowFaults) -
     return spaced(table, found, column, bad)
 
 
-def _on_band(chosen: Chosen) -> list[str]:
-    """A remark on a band whose limits are not known."""
-    if not chosen.band or chosen.band in BANDS:
-        return []
-    return [f"which wavelengths the band {chosen.band} holds is not known: others are missing"]
+def _band(
+    chosen: Chosen, level: FloatArray, step: float
+) -> tuple[tuple[float, float] | None, list[str]]:
+    """The band that the heading names, or else that the level shows, and a remark on it."""
+    if chosen.band in BANDS:
+        return BANDS[chosen.band], []
+    if chosen.band:
+        return None, [
+            f"which wavelengths the band {chosen.band} holds is not known: others are missing"
+        ]
+    shown = shown_band(level, step)
+    if shown is None:
+        return None, []
+    low, high = shown
+    remark = f"only wavelengths of {low:.4g} to {high:.4g} m: its spectrum is zero beyond them"
+    return shown, [f"the level holds {remark}"]
