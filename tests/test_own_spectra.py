@@ -207,11 +207,16 @@ def test_faults_of_a_file_are_named_by_row_and_column(tmp_path):
     lines = text("wavenumber [rad/m],density [m^2/(rad/m)]", rows()).split("\n")
     lines[4] = "0.05,abc"
     lines[6] = "x,1e-5"
+    lines[7], lines[8] = "0.5,-1e-5", "0.6,0"
     (tmp_path / "own.csv").write_text("\n".join(lines))
     with pytest.raises(InputError) as caught:
         read_spectrum(tmp_path / "own.csv")
     assert "row 5, column 'density [m^2/(rad/m)]': found 'abc'" in str(caught.value)
     assert "row 7, column 'wavenumber [rad/m]': found 'x'" in str(caught.value)
+    assert "row 8, column 'density [m^2/(rad/m)]': found -1e-05" in str(caught.value)
+    assert "row 9, column 'density [m^2/(rad/m)]': found 0" in str(caught.value)
+    assert len(str(caught.value).split("\n")) == 4
+    lines = text("wavenumber [rad/m],density [m^2/(rad/m)]", rows()).split("\n")
     lines[4], lines[6] = "0.05,1e-3", lines[3]
     (tmp_path / "own.csv").write_text("\n".join(lines))
     with pytest.raises(InputError, match=r"row 7, column 'wavenumber \[rad/m\]': found .* after"):

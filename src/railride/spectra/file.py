@@ -62,11 +62,12 @@ def spectrum_of(table: NumberTable, sidedness: str | None = None) -> Spectrum:
     (abscissa,), (density,) = roles[0][0], roles[1][0]
     _check_cells(table, (abscissa, density), faults)
     x, S = (np.asarray(column.numbers, dtype=np.float64) for column in (abscissa, density))
-    points = Points(x, S, abscissa.unit, density.unit)
+    whole = np.flatnonzero(np.isfinite(x) & np.isfinite(S))  # the others are faults already
+    points = Points(x[whole], S[whole], abscissa.unit, density.unit)
     columns = {"abscissa": abscissa, "density": density}
     return tabulated(
         points, sidedness or _stated(density), Path(table.source).name, table.source, faults,
-        lambda j, role: table.where(j, columns[role]), table.remarks,
+        lambda j, role: table.where(int(whole[j]), columns[role]), table.remarks,
     )  # fmt: skip
 
 
@@ -88,11 +89,10 @@ def _stated(column: Column) -> str | None:
 
 
 def _check_cells(table: NumberTable, columns: tuple[Column, ...], faults: Faults) -> None:
-    """Refuse cells that are no numbers."""
+    """Note cells that are no numbers."""
     bad = RowFaults(faults)
     for column in columns:
         for i in column.bad.tolist():
             bad.add(table.row(i), column.heading, column.shown(i), "a finite number",
                     "leave points without a density out")  # fmt: skip
     bad.close()
-    faults.raise_if_any()
