@@ -399,6 +399,14 @@ def test_binary_files_hold_tracks_too(tmp_path):
         assert_allclose(track.level, W / 1000, rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize(("heading", "metres"), [("km", 1000.0), ("kilometre", 1000.0)])
+def test_a_heading_that_is_a_unit_has_that_unit(read, heading, metres):
+    rows = "\n".join(f"{(100 + x) / metres:.5f},{w}" for x, w in zip(X, W, strict=True))
+    found = read(f"{heading},level_mm\n{rows}\n")
+    assert found.step == pytest.approx(0.25)
+    assert found.distance0 == pytest.approx(100.0)
+
+
 def test_load_track_tells_spectra_from_tracks_by_their_columns(tmp_path):
     (tmp_path / "track.csv").write_text(car())
     (tmp_path / "own.csv").write_text("wavelength_m,psd [m^2/(rad/m)]\n100,1e-3\n2,1e-9\n")

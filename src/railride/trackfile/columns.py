@@ -216,11 +216,16 @@ def _report_missing(table: NumberTable, role: str, faults: Faults) -> None:
                f"{mend}rename its heading, or name it with --{role}-column")  # fmt: skip
 
 
+def _unit_alone(column: Column) -> str:
+    """The unit that a heading is and nothing else, such as ``km`` for a distance."""
+    return column.end if column.end in (*UNITS.split(", "), "kilometre", "kilometer") else ""
+
+
 def _metres(
     table: NumberTable, column: Column, given: str | None, role: str, faults: Faults
 ) -> float:
     """How many metres a column's unit is; 1 for kilometres and metres, which are texts."""
-    unit = given or column.unit
+    unit = given or column.unit or _unit_alone(column)
     if role == "distance" and is_km_and_m(column):
         return 1.0
     try:
