@@ -195,6 +195,16 @@ def test_a_track_without_a_spectrum_has_no_exact_value():
     assert any("no exact value" in remark for remark in found.remarks)
 
 
+def test_a_track_shorter_than_its_waves_is_trusted_nowhere():
+    level = 1e-3 * np.sin(np.arange(12.0))
+    track = Track(0.0, 0.25, level, "stub", band=(3.0, 25.0))
+    remarks = ride(paper_coach(1), track, [10.0], length=2.0).remarks
+    assert any("stub can be trusted at no frequency" in r for r in remarks)
+    assert not any("trusted from" in r for r in remarks)
+    whole = ride(paper_coach(1), bump(300.0), [10.0], length=400.0).remarks
+    assert not any("at no frequency" in r for r in whole)
+
+
 def test_one_seed_is_one_track_for_all_speeds_and_bodies():
     """The elevation over distance is the same, whatever runs over it."""
     shapes = []

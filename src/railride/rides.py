@@ -356,6 +356,9 @@ def _coverage(source: Spectrum | Track, speed: float) -> list[str]:
         remark = coverage_remark(source.name, source.active_band, speed)
         return [remark] if remark else []
     low, high = resolved_band_hz(source, speed)
+    if low > high:
+        limits = f"its length holds {low:.3g} Hz and above, its steps or its band {high:.3g} Hz"
+        return [f"{_kmh(speed)}: {source.name} can be trusted at no frequency: {limits} and below"]
     text = f"{_kmh(speed)}: {source.name} can be trusted from {low:.2g} to {high:.3g} Hz"
     narrow = f"{text} only: what the vehicle would feel outside is missing from the values"
     return [narrow if high < BAND_HZ[1] else text]
