@@ -163,6 +163,9 @@ def test_the_only_column_beside_the_time_is_taken_as_z(read):
         ("time,z [mm],b", {"columns": ["z"]}, "the unit 'mm'; expected a unit of acceleration"),
         ("time [m],z,b", {"time_column": "time"}, "the unit 'm'; expected a unit of time"),
         ("time,z,b", {"unit": "kN"}, "unit: found the unit 'kN'"),
+        ("time,z,b", {"unit": "furlong"}, "expected a unit of acceleration: m/s², g or mg$"),
+        ("time,a,b", {}, r"name them by --column, .* --time-column \(columns=, time_column=\)"),
+        ("a,z,b", {}, r"by --time-column \(time_column=\), or give --rate HZ \(rate=\)"),
         ("time,z,b", {"unit": "0 g"}, "unit: found the unit '0 g'"),
         ("a,z,b", {}, "neither a time column nor a rate"),
         ("time,z,b", {"rate": 100.0, "time_column": "time"}, "both a rate, 100 Hz, and a time"),
@@ -278,10 +281,22 @@ def test_times_that_fall_throughout_or_have_too_few_digits(fault):
         csv("time,z", T[::-1], f(T))
     )
     rough = fault(csv("time,z", [f"{t:.0f}" for t in T], f(T)))
-    assert "leave them out and give the rate" in rough
+    assert "the times have too few digits: give the rate instead (--rate)" in rough
     assert len(rough.split("\n")) == 11
     dates = ["yesterday" if k == 4 else f"2024-01-24T18:23:{7 + t:06.3f}" for k, t in enumerate(T)]
     assert "row 6, column 'time': found 'yesterday'" in fault(csv("time,z", dates, f(T)))
+
+
+def test_rows_of_the_same_rounded_time_are_not_advised_away(fault, read):
+    """1024 Hz with times to the ms: every 43rd time is there twice, and both rows are samples."""
+    rounded = csv("time,z", [f"{k / 1024:.3f}" for k in range(N)], f(T))
+    found = fault(rounded)
+    assert "if the times are rounded to 0.001 s, give the rate instead (--rate)" in found
+    assert read(rounded, rate=1024.0).lengths == (N,)
+    twice = np.insert(T, 5, T[4])
+    assert "keep one of the rows" in fault(
+        csv("time,z", [f"{t + 0.0013:.4f}" for t in twice], f(twice))
+    )
 
 
 def test_a_unit_of_time_that_cannot_be_told_is_asked_for(fault):

@@ -37,6 +37,9 @@ _OTHERS = re.compile(
 )
 
 
+_NAME_THEM = "name them by --column, and the times by --time-column (columns=, time_column=)"
+
+
 @dataclass(frozen=True)
 class Choice:
     """The columns of accelerations with their directions, and the time's, if there is one."""
@@ -107,7 +110,7 @@ def _found(columns: list[Column], faults: Faults, remarks: list[str]) -> list[Co
             "columns",
             f"{what}{', none of which tells a direction' if numbers else ''}",
             "accelerations headed x, y, z, ax, acc_z, Vertical, …",
-            "name the columns",
+            _NAME_THEM,
         )
     elif any(count > 1 for count in counts.values()):
         several = [c.heading for c in directed if counts[direction(c)] > 1]
@@ -115,7 +118,7 @@ def _found(columns: list[Column], faults: Faults, remarks: list[str]) -> list[Co
             "columns",
             f"several columns for one direction: {', '.join(map(repr, several))}",
             "one for each",
-            "name the columns",
+            _NAME_THEM,
         )
     faults.raise_if_any()
     if empty:

@@ -29,6 +29,7 @@ _SINCE_1970 = (("ns", 1e17), ("µs", 1e14), ("ms", 1e11), ("s", 1e8))
 _USUAL_RATES = (10.0, 20_000.0)
 _SLOWEST = 2.0
 _LARGEST = 1e20
+_MANY = 3  # times that are there twice: rounding makes more than one
 _A_TIME = "a time, as in the other rows"
 
 
@@ -71,7 +72,7 @@ def read_clock(table: NumberTable, column: Column, bad: RowFaults) -> Clock:
     seconds = (ticks - ticks[there[0]]) * scale
     seconds[~_present(ticks)] = np.nan
     digit = scale * _digit(ticks[there], largest)
-    _check_rising(table, column, seconds, bad)
+    _check_rising(table, column, seconds, digit, bad)
     return Clock(seconds, digit, tuple(remarks))
 
 
@@ -214,8 +215,10 @@ def _clock_times(cells: pd.Series[Any]) -> NDArray[np.int64]:
     return np.array(spans.astype("timedelta64[ns]").to_numpy().view(np.int64))
 
 
-def _check_rising(table: NumberTable, column: Column, seconds: FloatArray, bad: RowFaults) -> None:
-    """Note the rows at which the time falls or stands still."""
+def _check_rising(
+    table: NumberTable, column: Column, seconds: FloatArray, digit: float, bad: RowFaults
+) -> None:
+    """Note the rows at which the time falls or stands still; ``digit`` (s) is its resolution."""
     there = np.flatnonzero(~np.isnan(seconds))
     steps = np.diff(seconds[there])
     wrong = np.flatnonzero(steps <= 0.0)
@@ -228,9 +231,13 @@ def _check_rising(table: NumberTable, column: Column, seconds: FloatArray, bad: 
         )
         return
     still = np.count_nonzero(steps == 0.0)
-    mend = "keep one of the rows, or sort them by time"
+    mend, rated = "keep one of the rows, or sort them by time", "give the rate instead (--rate)"
     if 4 * still > steps.size:
-        mend = "the times have too few digits: leave them out and give the rate"
+        mend = f"the times have too few digits: {rated}"
+    elif still >= _MANY and 2 * digit * steps.size > float(np.sum(steps)):
+        # Rounding to a digit near the step makes twins of rows that are none.
+        mend = f"if the times are rounded to {digit:.3g} s, {rated}; keep one of two rows only if "
+        mend += "it is there twice"
     for k in wrong[: bad.shown].tolist():
         before, here = (column.cells[int(i)] for i in there[k : k + 2])
         kind = "the same time again" if steps[k] == 0.0 else "a fall"

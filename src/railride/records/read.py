@@ -118,7 +118,7 @@ def _clock(
             "time",
             "neither a time column nor a rate",
             "a column headed time (s, ms, ns or dates)",
-            "name the time column, or give the rate in Hz",
+            "name the time column by --time-column (time_column=), or give --rate HZ (rate=)",
         )
     for column, factor in zip(choice.columns, scale, strict=True):
         _note_texts(table, column, bad)

@@ -18,6 +18,7 @@ _ACCELERATIONS = {
         ("ms2", "ms-2", "ms^-2", "ms⁻²", "mps2", "m/s/s", "m/sec2", "m/sec^2"), "m/s^2"
     ),
 }
+_EXPECTED = "a unit of acceleration: m/s², g or mg"
 UNITS_OF_TIME = {
     **dict.fromkeys(("s", "sec", "secs", "second", "seconds", "sek", "sekunden"), "s"),
     **dict.fromkeys(("ms", "msec", "millis", "millisecond", "milliseconds"), "ms"),
@@ -44,9 +45,12 @@ def acceleration_factor(unit: str) -> float:
     if match:
         number, plain = float(match[1]), match[2]
     plain = _ACCELERATIONS.get(plain.replace(" ", ""), plain)
-    factor = number * to_si(1.0, plain) if same_dimension(plain, "m/s^2") else 0.0
+    try:
+        factor = number * to_si(1.0, plain) if same_dimension(plain, "m/s^2") else 0.0
+    except QuantityError as error:  # whose advice is of any dimension
+        raise QuantityError(error.found, _EXPECTED) from None
     if factor == 0.0 or not math.isfinite(factor):
-        raise QuantityError(f"the unit {unit!r}", "a unit of acceleration: m/s^2, g or mg")
+        raise QuantityError(f"the unit {unit!r}", _EXPECTED)
     return factor
 
 
