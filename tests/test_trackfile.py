@@ -78,7 +78,7 @@ def test_what_is_written_reads_back_to_the_last_bit(tmp_path, distance0, step):
     assert np.array_equal(again.level, track.level)
     assert again.step == pytest.approx(step, rel=1e-12)
     assert again.distance0 == distance0
-    assert_allclose(again.distance, track.distance, rtol=0, atol=2e-15 * abs(track.end))
+    assert np.array_equal(again.distance, track.distance)
     assert again.remarks == ()
     first, second = (tmp_path / "track.csv").read_text().split("\n")[:2]
     assert first == "distance_m,level_m"
@@ -96,9 +96,22 @@ def test_any_track_reads_back_to_the_last_bit(level, step, distance0):
         write_track(track, Path(folder) / "track.csv")
         again = read_track(Path(folder) / "track.csv")
     assert np.array_equal(again.level, track.level)
-    assert again.distance0 == distance0
+    assert np.array_equal(again.distance, track.distance)
     # Distances of 1e6 m have 1e-10 m between them.
     assert again.step == pytest.approx(step, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_distances_far_from_zero_read_back_to_the_last_bit(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(10):
+        step = float(rng.choice([0.25, 0.2, 0.305, 0.1524, 1 / 3])) * (1 + 1e-4 * rng.normal())
+        start = round(float(rng.uniform(0.0, 2e5)), 2)
+        track = Track(start, step, 1e-5 * np.cumsum(rng.normal(size=int(rng.integers(200, 4000)))))
+        write_track(track, tmp_path / "track.csv")
+        again = read_track(tmp_path / "track.csv")
+        assert np.array_equal(again.distance, track.distance)
+        assert np.array_equal(again.level, track.level)
 
 
 def test_a_round_step_comes_back_exactly(tmp_path):

@@ -10,6 +10,7 @@ from railride.errors import RowFaults
 from railride.spectra import FloatArray
 from railride.tables import Column, NumberTable
 from railride.trackfile.locations import Locations
+from railride.trackfile.steps import exact_step
 
 _OR_STEP = "or give the distance from row to row with --step"
 
@@ -101,10 +102,9 @@ def on_even_grid(
     n = distance.size
     mean = float(distance[-1] - distance[0]) / (n - 1)
     places = np.arange(n)
-    # The step of a written file comes back only if its distances do, to the last bit.
-    for step in (*(float(f"{mean:.{digits}g}") for digits in (6, 9, 12, 15)), mean):
-        if np.array_equal(distance[0] + step * places, distance):
-            return step, level, []
+    step = exact_step(distance)
+    if step is not None:
+        return step, level, []
     departure = float(np.max(np.abs(distance[0] + mean * places - distance)))
     if departure <= max(0.02 * mean, 0.51 * _printed_digit(distance)):
         return mean, level, []
