@@ -188,7 +188,25 @@ def test_modes_of_a_supported_body_are_doubted():
     shape = np.cos(np.pi * X / 17.5)  # pinned at the bogies, and so not free
     given = PointModes("modes", X, [9.0], [MASS / 2], [shape + 0.5])
     (remark,) = outside_modes(given, BODY).remarks
-    assert "is it a mode of the free body?" in remark
+    assert remark.startswith("a uniform lift and mode 1 would have 0.87 of their own products")
+    assert "are they natural motions of the free body?" in remark
+
+
+@pytest.mark.parametrize(
+    ("shapes", "words"),
+    [
+        (lambda s: s + [[0], [0.6], [0], [0]] * s[0], "mode 1 and mode 2 would have 0.51 of"),
+        (lambda s: s + [[0], [0.5], [0], [0]] * s[3], "mode 2 and mode 4 would have 0.45 of"),
+        (lambda s: s + np.outer([0, 1, 0, 0], 0.5 * X / (L / np.sqrt(12))),
+         "pitch about the mass centre and mode 2 would have 0.45 of"),
+    ],
+    ids=["neighbours", "both uneven", "pitch"],
+)  # fmt: skip
+def test_modes_in_common_without_point_masses_are_doubted(shapes, words):
+    given = points(modal_masses=np.full(4, MASS), shapes=shapes(points()[1].shapes(X)))[0]
+    (remark,) = outside_modes(given, BODY).remarks  # a / (1 + a²)^½ of unit motions a apart
+    assert remark.startswith(words)
+    assert "cannot be checked without point masses" in remark
 
 
 @pytest.mark.parametrize(
@@ -409,6 +427,19 @@ def put(value, *place):
 def test_matrices_that_cannot_be_are_refused(changes, words):
     with pytest.raises(InputError, match=words):
         BodyMatrices("beam", **spoilt(**changes)).point_modes(4)
+
+
+@pytest.mark.parametrize("name", ["M", "K"])
+@pytest.mark.parametrize("share", [-1.0, -1e-3, 0.2])
+def test_the_least_eigenvalue_of_an_indefinite_matrix_is_said(name, share):
+    given = spoilt()
+    A = given[name] = put(share * given[name][20, 20], 20, 20)(given[name])
+    with pytest.raises(InputError, match=rf"{name}: found 1 negative eigenvalue, the least") as e:
+        BodyMatrices("beam", **given)
+    scale = 1 / np.sqrt(np.abs(np.diag(A)))
+    exact = np.linalg.eigvalsh(A * np.outer(scale, scale))[0]
+    said = float(str(e.value).split("the least ")[1].split(" ")[0])
+    np.testing.assert_allclose(said, exact, rtol=6e-3)  # of three digits
 
 
 def test_a_coordinate_without_mass_and_stiffness_is_named():

@@ -32,7 +32,7 @@ from railride.numeric import Array
 AGREE = 0.01  # of mass, inertia and length: so near the vehicle's own
 COMMON = 0.1  # of two motions' own products: more than lumping the mass leaves in common
 NOTED = 0.01  # of these, or of a shape's largest value: more is said
-EVEN = 0.3  # of the body's momentum: more than an uneven distribution of the mass explains
+EVEN = 0.3  # of two motions' own products: more than an uneven distribution of the mass explains
 HEIGHTS = (1.0, 10.0)  # least of the highest mode and most of the lowest: a free beam's are 2
 FIRST = (2.0, 60.0)  # Hz, between which the first bending of a car body lies
 
@@ -171,13 +171,7 @@ def _check_products(
     """Note motions that are not orthogonal by the point masses, or hardly can be without them."""
     names = [HEAVE, PITCH, *(f"mode {i + 1}" for i in points.flexible)]
     if points.point_masses is None:
-        x = np.linspace(-body.length / 2, body.length / 2, 401)
-        momentum = np.abs(_interpolated(points.x, shapes)[0](x).mean(axis=1))
-        remarks += [
-            f"{names[i + 2]} would move the mass centre by {momentum[i]:.2g} times its coordinate "
-            "if the mass were spread evenly: is it a mode of the free body?"
-            for i in np.flatnonzero(momentum > EVEN)
-        ]
+        remarks += _common_if_even(points, body, shapes, names)
         return
     arm = np.sqrt(body.pitch_inertia / body.mass)
     motions = np.vstack([np.ones_like(points.x), (points.x - body.mass_centre) / arm, shapes])
@@ -196,6 +190,22 @@ def _check_products(
         else:
             remarks.append(f"{where} have {found} in common in the point masses" if i != j else
                            f"{where} has {found} in the points")  # fmt: skip
+
+
+def _common_if_even(
+    points: PointModes, body: CarBody, shapes: Array, names: Sequence[str]
+) -> list[str]:
+    """What to say of motions that have more in common than an uneven mass explains."""
+    x = body.length * ((np.arange(400) + 0.5) / 400 - 0.5)  # the middles of equal parts
+    motions = np.vstack([np.ones_like(x), x, _interpolated(points.x, shapes)[0](x)])
+    motions /= np.linalg.norm(motions, axis=1, keepdims=True)
+    P = np.abs(motions @ motions.T)
+    return [
+        f"{names[i]} and {names[j]} would have {P[i, j]:.2g} of their own products in common if "
+        "the mass were spread evenly: are they natural motions of the free body? Whether they are "
+        "orthogonal cannot be checked without point masses"
+        for i, j in zip(*np.nonzero(np.triu(P > EVEN, 1)), strict=True)
+    ]
 
 
 def _check_spacing(points: PointModes, shapes: Array, faults: Faults, remarks: list[str]) -> None:
