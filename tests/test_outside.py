@@ -177,11 +177,19 @@ def test_modal_masses_in_another_unit_are_refused(factor, words):
         outside_modes(replace(given, modal_masses=given.modal_masses * factor), BODY)
 
 
-def test_a_modal_mass_of_another_scale_is_doubted():
+@pytest.mark.parametrize(("factor", "words"), [(0.01, "20"), (1000, "0.0632")])
+def test_a_modal_mass_of_another_scale_is_doubted(factor, words):
     given = points()[0]
-    scaled = replace(given, modal_masses=given.modal_masses * [1, 1, 0.01, 1])
+    scaled = replace(given, modal_masses=given.modal_masses * [1, 1, factor, 1])
     (remark,) = outside_modes(scaled, BODY).remarks
-    assert remark.startswith("mode 3 reaches 20, scaled to")
+    assert remark.startswith(f"mode 3 reaches {words}, scaled to")
+
+
+def test_one_modal_mass_in_another_unit_is_refused():
+    given = points()[0]
+    scaled = replace(given, modal_masses=given.modal_masses * [0.001, 1, 1000, 1])
+    with pytest.raises(InputError, match=r"mode 1: found heights up to 63\.2, .* than 30 \(its"):
+        outside_modes(scaled, BODY)
 
 
 def test_modes_of_a_supported_body_are_doubted():

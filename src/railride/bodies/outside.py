@@ -34,6 +34,7 @@ COMMON = 0.1  # of two motions' own products: more than lumping the mass leaves 
 NOTED = 0.01  # of these, or of a shape's largest value: more is said
 EVEN = 0.3  # of two motions' own products: more than an uneven distribution of the mass explains
 HEIGHTS = (1.0, 10.0)  # least of the highest mode and most of the lowest: a free beam's are 2
+ALONE = (0.1, 30.0)  # of any one mode: one that is lower is doubted, one that is higher refused
 FIRST = (2.0, 60.0)  # Hz, between which the first bending of a car body lies
 
 
@@ -57,7 +58,7 @@ def outside_modes(
     ------
     InputError : with all faults at once: points off the body, or that do not cover the
         attachments; rigid motions or point masses of another body; motions that are not
-        orthogonal; a mode known in too few points.
+        orthogonal; a modal mass of another scale; a mode known in too few points.
     """
     faults, remarks = Faults(points.source), list(points.remarks)
     _check_places(points, body, attachments, faults)
@@ -157,12 +158,15 @@ def _check_scale(points: PointModes, shapes: Array, faults: Faults, remarks: lis
                    "body's mass", "about 2, as of a free beam",
                    "modal masses in another unit, or of shapes in another scale?")  # fmt: skip
         return
-    remarks += [
-        f"mode {i + 1} reaches {height:.3g}, scaled to the car body's mass: is its modal mass that "
-        "of its shape?"
-        for i, height in zip(points.flexible, largest, strict=True)
-        if height > high
-    ]
+    for i, height in zip(points.flexible, largest, strict=True):
+        if height > ALONE[1]:
+            faults.add(f"mode {i + 1}", f"heights up to {height:.3g}, scaled to the car body's "
+                       "mass", f"about 2, as of a free beam, and no more than {ALONE[1]:g}",
+                       "its modal mass in the unit and scale of its shape; a mode of a small part "
+                       "left out")  # fmt: skip
+        elif not ALONE[0] <= height <= high:
+            remarks.append(f"mode {i + 1} reaches {height:.3g}, scaled to the car body's mass: is "
+                           "its modal mass that of its shape?")  # fmt: skip
 
 
 def _check_products(
