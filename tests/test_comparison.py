@@ -129,7 +129,49 @@ mass_per_length = ["1500 kg/m", "1300 kg/m", "1500 kg/m"]
     four, eight, fe = (abs(one.error[0, 0]) for one in uneven.bodies)
     assert fe < 1e-3
     assert eight < four / 8  # fourth order would be a sixteenth
-    assert any("beams are uniform" in remark for remark in uneven.remarks)
+    assert any("left out: beam of 3 modes" in remark for remark in uneven.remarks)
+
+
+def of_paper(tmp_path, body):
+    """The paper's coach with other lines for its body."""
+    text = (ROOT / "data" / "vehicles" / "cati2024.toml").read_text(encoding="utf-8")
+    head, rest = text.split("[body]", 1)
+    file = tmp_path / "coach.toml"
+    file.write_text(head + body + "\n" + rest[rest.index("[bogie]") :], encoding="utf-8")
+    return str(file)
+
+
+WHOLE = """[body]
+mass = "34 t"
+pitch_inertia = "1.7e6 kg m^2"
+length = "24 m"
+"""
+
+
+def test_segments_meet_several_frequencies_and_beams_the_first(tmp_path):
+    file = of_paper(tmp_path, WHOLE + 'bending_frequencies = ["9.6 Hz", "26.46 Hz"]')
+    four, beam = compare_bodies(file, speeds=[V], at=[0.0], segments=[4], beams=[3]).bodies
+    assert four.free_hz[:2] == pytest.approx([9.6, 26.46], rel=1e-9)
+    assert beam.free_hz[0] == pytest.approx(9.6, rel=1e-9)
+
+
+def test_what_cannot_be_made_is_left_out_with_its_reason(tmp_path):
+    file = of_paper(tmp_path, WHOLE + 'bending_frequency = "9.6 Hz"\nmode_damping = [0.01, 0.02]')
+    found = compare_bodies(file, speeds=[V], at=[0.0], segments=[1, 4], beams=[3])
+    assert [one.title for one in found.bodies] == ["rigid", "beam, 3 modes"]
+    assert any(remark.startswith("left out: 4 segments: ") and "mode_damping" in remark
+               for remark in found.remarks)  # fmt: skip
+
+
+def test_segments_of_their_own_are_measured_against_themselves(tmp_path):
+    each = '[[segments]]\nlength = "6 m"\nmass = "8.5 t"\n'
+    file = of_paper(tmp_path, '[body]\njoint_stiffness = "6e8 N m/rad"\n' + 4 * each)
+    found = compare_bodies(file, speeds=[V], at=[0.0], segments=[1, 4, 8], beams=[3])
+    assert found.reference.title == "4 segments"
+    assert [one.title for one in found.bodies] == ["rigid", "4 segments"]
+    assert found.bodies[1].error == 0.0
+    left = [remark for remark in found.remarks if remark.startswith("left out")]
+    assert len(left) == 2
 
 
 def test_progress_ends_at_one():
@@ -145,8 +187,12 @@ def test_nothing_to_compare_and_a_body_without_bending():
     with pytest.raises(InputError, match="no bodies"):
         compare_bodies("cati2024", segments=[], beams=[])
     stiff = load_vehicle("manchester")
-    with pytest.raises(InputError, match="bending"):
+    with pytest.raises(InputError, match="give --bending-frequency"):
         compare_bodies(stiff, segments=[2])
+    given = compare_bodies(
+        stiff, speeds=[V], at=[0.0], segments=[4], beams=[], bending_frequency=9.0
+    )
+    assert given.bodies[0].free_hz[0] == pytest.approx(9.0, rel=1e-9)
 
 
 def test_command_as_promised(run, tmp_path):
@@ -174,7 +220,8 @@ def test_command_as_promised(run, tmp_path):
     picture = tmp_path / "bodies.svg"
     code, out, err = run("compare", *options, "--plot", picture)
     assert code == 0, err
-    assert "the converged beam first" in out
+    assert "first what they are measured against" in out
+    assert "error against beam, 30 modes" in out
     assert picture.stat().st_size > 0
 
 

@@ -1,7 +1,8 @@
 """Car bodies side by side: one vehicle over one track, with every way to make its body.
 
 Each is measured against the converged beam, one of so many modes that more would change nothing; of
-a body with a profile, which no uniform beam is, against finite elements of as many.
+a body that no uniform beam is, against finite elements of as many, its modes from outside, or the
+finest segments. What cannot be made of a vehicle is left out, with the reason.
 
 Source: the question of Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Section 1: how
 accurate assembled rigid bodies are beside a free-free beam and finite elements, and at what cost.
@@ -18,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from railride.bodies.choice import KINDS
+from railride.bodies.choice import KINDS, MODAL
 from railride.errors import InputError
 from railride.modal import modes
 from railride.numeric import Array
@@ -38,7 +39,9 @@ if TYPE_CHECKING:
 SEGMENTS = (1, 2, 3, 4, 6, 8, 16)
 MODES = (1, 2, 3, 5, 10)
 CONVERGED = 30  # modes of the beam that all are measured against
+FINEST = 32  # segments, where neither a beam nor finite elements can be made
 SHOWN = 3  # bending frequencies
+Make = dict[str, Any]  # arguments of derive_vehicle that say which body is made
 RUN = 1000.0  # m, of the run that is timed
 
 
@@ -139,13 +142,12 @@ def compare_bodies(
         over every bogie, and both ends.
     segments : numbers of rigid segments, 1 for the rigid body. beams, elements : numbers of modes
         of beams and of finite-element bodies.
-    floor : "smooth" or "polygon". bending_frequency : Hz, bending_damping : a ratio, in place of
-        the vehicle's. progress : called with the fraction done.
+    floor : "smooth", "polygon" or "spline". bending_frequency : Hz, bending_damping : a ratio, in
+        place of the vehicle's. progress : called with the fraction done.
 
     Raises
     ------
-    InputError : as :func:`derive_vehicle` and :func:`stochastic_ride`; no body at all; finite
-        elements without the library that they need.
+    InputError : as :func:`stochastic_ride`; no body at all that can be made of the vehicle.
 
     Examples
     --------
@@ -156,10 +158,9 @@ def compare_bodies(
     True
     """
     vehicle = vehicle if isinstance(vehicle, Vehicle) else load_vehicle(vehicle)
-    uneven = vehicle.body.profile is not None
-    makes: list[dict[str, Any]] = [
+    makes: list[Make] = [
         *({"segments": n} for n in segments),
-        *({"body": "beam", "modes": n} for n in beams if not uneven),
+        *({"body": "beam", "modes": n} for n in beams),
         *({"body": "fe", "modes": n} for n in elements),
     ]
     if not makes or not speeds:
@@ -168,31 +169,88 @@ def compare_bodies(
     source = load_track(track)
     spectrum, said = track_spectrum(source)
     road = ridden_track(source, speeds, RUN, 1)
-    given: dict[str, Any] = {
-        "bending_frequency": bending_frequency,
-        "bending_damping": bending_damping,
-    }
-    remarks: list[str] = list(said)
-    if uneven and beams:
-        remarks.append(f"{vehicle.name}: beams are uniform, and its body is not: finite elements "
-                       "take their place")  # fmt: skip
-    found: list[ComparedBody] = []
-    converged = {"body": "fe" if uneven else "beam", "modes": CONVERGED}
-    for number, make in enumerate([converged, *makes]):
-        started = perf_counter()
-        model = derive_vehicle(vehicle, **make, **given)
-        model.matrices()
-        derived = perf_counter() - started
-        values = [stochastic_ride(model, v, spectrum, places, floor=floor) for v in speeds]
-        a_wrms = np.array([value.a_wrms for value in values])
-        reference = found[0].a_wrms if found else a_wrms
-        found.append(_compared(model, a_wrms, a_wrms / reference - 1, derived,
-                               _run_time(model, road, speeds[0], places, floor)))  # fmt: skip
-        remarks += [*model.vehicle.remarks, *model.remarks, *(r for v in values for r in v.remarks)]
+    damping = {"bending_damping": bending_damping}
+    reference, model = _reference(vehicle, bending_frequency, damping)
+    if vehicle.body.mode_files is not None:  # others are compared at its own first frequency
+        bending_frequency = float(model.bending_frequencies()[0])
+    remarks = [*said, *model.vehicle.remarks, *model.remarks]
+    found = [_felt(model, reference, spectrum, speeds, places, floor, road)]
+    for number, make in enumerate(makes, start=1):
+        try:
+            made = _made(vehicle, make, bending_frequency, damping)
+        except InputError as fault:
+            remarks.append(f"left out: {_named(make)}: {fault}")
+            continue
+        found.append(_felt(made[1], made[0], spectrum, speeds, places, floor, road, found[0]))
+        remarks += [*made[1].vehicle.remarks, *made[1].remarks]
         if progress is not None:
-            progress((number + 1) / (len(makes) + 1))
+            progress(number / len(makes))
+    if len(found) == 1:
+        raise InputError("compare: found no body that can be made of it:\n" + "\n".join(remarks))
     return Comparison(vehicle.name, source.name, floor, tuple(speeds), places, tuple(found[1:]),
                       found[0], tuple(_once(remarks)))  # fmt: skip
+
+
+def _made(
+    vehicle: Vehicle, make: Make, frequency: float | None, damping: dict[str, Any]
+) -> tuple[float, VehicleModel]:
+    """A vehicle derived and turned into numbers, and how many seconds that took."""
+    started = perf_counter()
+    own = _own_frequency(vehicle, make, frequency)
+    model = derive_vehicle(vehicle, **make, bending_frequency=own, **damping)
+    model.matrices()
+    return perf_counter() - started, model
+
+
+def _own_frequency(vehicle: Vehicle, make: Make, frequency: float | None) -> float | None:
+    """What is to be given to a body in place of the vehicle's bending frequencies.
+
+    Rigid bodies and modes from outside take none; of several frequencies, which segments meet,
+    beams and finite elements take the first.
+    """
+    several = vehicle.body.bending_frequencies
+    if make.get("segments") == 1 or (
+        make.get("body") == "fe" and vehicle.body.mode_files is not None
+    ):
+        return None
+    if frequency is None and several and make.get("body") in MODAL:
+        return several[0]
+    return frequency
+
+
+def _reference(
+    vehicle: Vehicle, frequency: float | None, damping: dict[str, Any]
+) -> tuple[float, VehicleModel]:
+    """What all are measured against: the first of these that can be made.
+
+    A body from outside as it is; a beam; finite elements; the finest segments.
+
+    Raises InputError with what is wrong with each where none can be.
+    """
+    usual: list[Make] = [
+        {"body": "beam", "modes": CONVERGED},
+        {"body": "fe", "modes": CONVERGED},
+        {"segments": FINEST},
+        {"body": "segments"},
+    ]
+    own: list[Make] = [{"body": "fe"}] if vehicle.body.mode_files is not None else []
+    faults = []
+    for make in [*own, *usual]:
+        try:
+            return _made(vehicle, make, frequency, damping)
+        except InputError as fault:
+            faults.append(f"{_named(make)}: {fault}")
+    raise InputError(
+        f"{vehicle.name}: found no flexible body to compare with; expected one that can be made "
+        "(give --bending-frequency where none is known):\n" + "\n".join(faults)
+    )
+
+
+def _named(make: Make) -> str:
+    """A body that was to be made, in a few words."""
+    if "modes" in make:
+        return f"{make['body']} of {make['modes']} modes"
+    return f"{make['segments']} segments" if "segments" in make else f"body {make['body']}"
 
 
 def _once(remarks: Sequence[str]) -> list[str]:
@@ -217,9 +275,13 @@ def _usual_places(vehicle: Vehicle) -> list[float]:
     return [0.0, *(bogie.position for bogie in vehicle.bogies), half, -half]
 
 
-def _compared(
-    model: VehicleModel, a_wrms: Array, error: Array, derived: float, simulated: float
-) -> ComparedBody:
+def _felt(
+    model: VehicleModel, derived: float, spectrum: Spectrum, speeds: Sequence[float],
+    places: Sequence[float], floor: str, road: Track, reference: ComparedBody | None = None,
+) -> ComparedBody:  # fmt: skip
+    """What a body gives, against the reference, which is measured against itself."""
+    values = [stochastic_ride(model, v, spectrum, places, floor=floor) for v in speeds]
+    a_wrms = np.array([value.a_wrms for value in values])
     named = {mode.label: mode.frequency_hz for mode in modes(model)}
     bending = [named[f"bending {k}"] for k in range(1, SHOWN + 1) if f"bending {k}" in named]
     return ComparedBody(
@@ -230,9 +292,9 @@ def _compared(
         model.bending_frequencies()[:SHOWN],
         np.array(bending),
         a_wrms,
-        error,
+        a_wrms / (a_wrms if reference is None else reference.a_wrms) - 1,
         derived,
-        simulated,
+        _run_time(model, road, speeds[0], places, floor),
     )
 
 

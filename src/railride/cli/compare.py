@@ -148,7 +148,7 @@ def _table(found: Comparison) -> str:
     shown = [found.reference, *found.bodies]
     rows = [(one.title, one.dof, *_three(one.free_hz), *_three(one.vehicle_hz), 1e3 * one.derive_s,
              1e3 * one.simulate_s) for one in shown]  # fmt: skip
-    title = f"{found.vehicle}: car bodies, the converged beam first"
+    title = f"{found.vehicle}: car bodies, first what they are measured against"
     tables = [output.table_text(title, columns, rows)]
     for i, v in enumerate(found.speeds):
         heads = [("body", ""), *((f"{x:g} m", ">") for x in found.positions)]
@@ -157,7 +157,7 @@ def _table(found: Comparison) -> str:
                  for one in shown]  # fmt: skip
         tables.append(output.table_text(
             f"{kmh(v):g} km/h over {found.track}, {found.floor} floor: a_wrms [m/s²], and its "
-            "error against the converged beam", heads, cells))  # fmt: skip
+            f"error against {found.reference.title}", heads, cells))  # fmt: skip
     return "\n".join(tables)
 
 

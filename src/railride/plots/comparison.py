@@ -95,6 +95,7 @@ def _draw(ax: Axes, found: Comparison, error: Callable[[ComparedBody], float]) -
     ax.xaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_minor_formatter("{x:g}")
     ax.yaxis.set_major_formatter(lambda value, _: f"{100 * value:.10g} %")
+    ax.yaxis.set_minor_formatter("")
     ax.set_xlabel("degrees of freedom of the vehicle")
     if ax.lines:
         ax.legend(frameon=False, fontsize="small")
