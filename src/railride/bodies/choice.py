@@ -9,7 +9,6 @@ import numpy as np
 
 from railride.bodies.base import BodyModel
 from railride.bodies.beam import MODES, BeamBody
-from railride.bodies.fe import fe_body
 from railride.bodies.rigid import RigidBody
 from railride.bodies.segments import SegmentedBody
 from railride.errors import Faults
@@ -62,7 +61,9 @@ def body_model(
     faults.raise_if_any()
     if kind == "beam":
         return BeamBody.of(body, MODES if modes is None else int(modes))
-    if kind == "fe":
+    if kind == "fe":  # what few need is loaded when it is
+        from railride.bodies.fe import fe_body
+
         return fe_body(body, None if modes is None else int(modes), attachments)
     count = segments
     if count is None:
