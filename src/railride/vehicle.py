@@ -324,6 +324,7 @@ def derive_vehicle(
         "joint stiffness": joint_stiffness,
         "bending damping": bending_damping,
     }
+    several = vehicle.body.bending_frequencies
     vehicle = replace(vehicle, body=_bent(vehicle.body, *given.values()))
     try:
         attachments = [bogie.position for bogie in vehicle.bogies]
@@ -333,6 +334,10 @@ def derive_vehicle(
         raise InputError(f"{vehicle.name}: {error}") from None
     remarks = [*doubts(vehicle), *(f"{vehicle.name}: {remark}" for remark in model.remarks)]
     idle = [name for name, value in given.items() if value is not None]
+    if several and vehicle.body.bending_frequencies is None and model.kind != "rigid":
+        listed = ", ".join(f"{f:g}" for f in several)
+        remarks.append(f"{vehicle.name}: the bending frequencies of {listed} Hz are not used: one "
+                       "is given in their place")  # fmt: skip
     if idle and model.kind == "rigid":
         remarks.append(f"the body is rigid: {' and '.join(idle)} given with it without effect")
     return VehicleModel(vehicle, model, tuple(remarks))

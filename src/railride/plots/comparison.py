@@ -78,8 +78,7 @@ def plot_comparison(found: Comparison) -> Figure:
     plot_bending_convergence(found, ax=axes[3])
     speeds = ", ".join(f"{3.6 * v:g}" for v in found.speeds)
     figure.suptitle(f"{found.vehicle} over {found.track} at {speeds} km/h, {found.floor} floor: "
-                    f"errors against {FAMILIES[found.reference.body][0]} of "
-                    f"{found.reference.modes} modes")  # fmt: skip
+                    f"errors against {found.reference.title}")  # fmt: skip
     return figure
 
 
