@@ -176,6 +176,11 @@ def test_segments_of_their_own_are_measured_against_themselves(tmp_path):
     assert len(left) == 2
 
 
+def test_what_a_spectrum_does_not_hold_is_told():
+    found = compare_bodies("cati2024", "sncf_good", [V], at=[0.0], segments=[4], beams=[])
+    assert any("wavelengths of 2 to 40 m only" in remark for remark in found.remarks)
+
+
 def test_progress_ends_at_one():
     seen = []
     compare_bodies(
@@ -183,6 +188,9 @@ def test_progress_ends_at_one():
     )
     assert seen == sorted(seen)
     assert seen[-1] == 1.0
+    compare_bodies("cati2024", speeds=[V], at=[0.0], segments=[1], beams=[1000],
+                   progress=seen.append)  # fmt: skip
+    assert seen[-2:] == [0.5, 1.0]  # the beam is left out, and done all the same
 
 
 def test_nothing_to_compare_and_a_body_without_bending():

@@ -53,7 +53,7 @@ class ComparedBody:
     dof : coordinates of the vehicle. free_hz (≤ 3,) : first bending frequencies of the body free in
     space, vehicle_hz (≤ 3,) : on its suspension, |λ|/2π. a_wrms (speeds, positions) : m/s², exact.
     error : relative to the converged beam. derive_s, simulate_s : s, to derive it and to run it
-    over a kilometre at the first speed.
+    over a kilometre at the first speed. remarks : of the model and of its exact values.
     """
 
     body: str
@@ -66,6 +66,7 @@ class ComparedBody:
     error: Array
     derive_s: float
     simulate_s: float
+    remarks: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -173,16 +174,16 @@ def compare_bodies(
     reference, model = _reference(vehicle, bending_frequency, damping)
     if vehicle.body.mode_files is not None:  # others are compared at its own first frequency
         bending_frequency = float(model.bending_frequencies()[0])
-    remarks = [*said, *model.vehicle.remarks, *model.remarks]
     found = [_felt(model, reference, spectrum, speeds, places, floor, road)]
+    remarks = [*said, *found[0].remarks]
     for number, make in enumerate(makes, start=1):
         try:
-            made = _made(vehicle, make, bending_frequency, damping)
+            derived, model = _made(vehicle, make, bending_frequency, damping)
         except InputError as fault:
             remarks.append(f"left out: {_named(make)}: {fault}")
-            continue
-        found.append(_felt(made[1], made[0], spectrum, speeds, places, floor, road, found[0]))
-        remarks += [*made[1].vehicle.remarks, *made[1].remarks]
+        else:
+            found.append(_felt(model, derived, spectrum, speeds, places, floor, road, found[0]))
+            remarks += found[-1].remarks
         if progress is not None:
             progress(number / len(makes))
     if len(found) == 1:
@@ -295,6 +296,7 @@ def _felt(
         a_wrms / (a_wrms if reference is None else reference.a_wrms) - 1,
         derived,
         _run_time(model, road, speeds[0], places, floor),
+        (*model.vehicle.remarks, *model.remarks, *(said for v in values for said in v.remarks)),
     )
 
 

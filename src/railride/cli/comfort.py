@@ -101,11 +101,10 @@ def comfort(
                              detrend=detrend)  # fmt: skip
         found = rate_record(record, weightings=_weightings(weighting, len(record.axes)),
                             posture=posture)  # fmt: skip
-        over_time = found.blocks()
     text = output.result(form, _document(found), [_flat(axis) for axis in found.axes],
                          lambda: _table(found), found.remarks)  # fmt: skip
     if blocks is not None:
-        output.write(over_time.to_csv(index=False), blocks)
+        output.write(found.blocks().to_csv(index=False), blocks)
     if plot is not None:
         from railride import plots
 
