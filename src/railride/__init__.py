@@ -45,6 +45,7 @@ _WHERE = {
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),
     "comparison": ("Comparison", "compare_bodies"),
+    "changed_vehicle": ("vehicle_with",),
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
               "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",
