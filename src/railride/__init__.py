@@ -45,6 +45,7 @@ _WHERE = {
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),
     "comparison": ("Comparison", "compare_bodies"),
+    "distributions": ("Distribution", "sample"),
     "changed_vehicle": ("vehicle_with",),
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
