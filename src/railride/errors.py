@@ -15,14 +15,19 @@ class InputError(ValueError):
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong: ``where: found …; expected … (how to mend it)``."""
+    """One thing that is wrong: ``where: found …; expected … (how to mend it)``.
+
+    Where nothing is said to be expected, ``found`` is a message that says it all.
+    """
 
     where: str
     found: str
-    expected: str
+    expected: str = ""
     mend: str = ""
 
     def __str__(self) -> str:
+        if not self.expected:
+            return f"{self.where}: {self.found}"
         mend = f" ({self.mend})" if self.mend else ""
         return f"{self.where}: found {self.found}; expected {self.expected}{mend}"
 
@@ -46,6 +51,10 @@ class Faults:
     def add(self, where: str, found: object, expected: str, mend: str = "") -> None:
         """Note one fault."""
         self.found.append(Fault(where, str(found), expected, mend))
+
+    def include(self, where: str, error: InputError) -> None:
+        """Note what was wrong with something else that is named at ``where``, a line for each."""
+        self.found += [Fault(where, line) for line in str(error).splitlines()]
 
     def raise_if_any(self) -> None:
         """Raise all that was found as one :class:`InputError`; nothing if there is nothing."""

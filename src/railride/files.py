@@ -1,15 +1,17 @@
-"""Where the program's own data lie, and how a file is written whole or not at all."""
+"""Where the program's own data lie, files by name, and how one is written whole or not at all."""
 
 from __future__ import annotations
 
 import contextlib
+import difflib
 import errno
 import os
 import tempfile
 from pathlib import Path
 
-from railride.errors import Faults, InputError
+from railride.errors import Fault, Faults, InputError
 
+_FOLDERS = {"vehicle": "vehicles", "study": "studies"}  # below ``data``
 _MOST_LINKS = 40  # in a row, as Linux has it: beyond it they lead round in a circle
 
 
@@ -34,6 +36,48 @@ def data_path(*parts: str) -> Path:
             return path
     missing = "/".join(("data", *parts))
     raise FileNotFoundError(f"{missing} is missing: railride is not completely installed")
+
+
+def there(path: str | Path) -> bool:
+    r"""Whether there is such a file or folder; False, too, for what is no path at all.
+
+    >>> there(data_path("units.txt")), there("no\0path")
+    (True, False)
+    """
+    return os.path.exists(path)  # noqa: PTH110
+
+
+def shipped_names(kind: str) -> tuple[str, ...]:
+    """Names of the TOML files of a kind that come with the program, ``data/KINDs/NAME.toml``.
+
+    kind: "vehicle" or "study".
+    """
+    return tuple(sorted(path.stem for path in data_path(_FOLDERS[kind]).glob("*.toml")))
+
+
+def shipped_or_file(name_or_path: str | Path, kind: str) -> Path:
+    """Path of a TOML file: one that ships with the program, by its name, or the user's own.
+
+    name_or_path: a name of :func:`shipped_names`, or a path. kind: "vehicle" or "study".
+
+    Raises InputError for what is neither, with the near names.
+
+    >>> shipped_or_file("cati2024", "vehicle").name
+    'cati2024.toml'
+    """
+    text, shipped = str(name_or_path), shipped_names(kind)
+    if text in shipped:
+        return data_path(_FOLDERS[kind], f"{text}.toml")
+    if there(text):
+        return Path(text)
+    near = difflib.get_close_matches(text.removesuffix(".toml"), shipped, n=1)
+    fault = Fault(
+        f"{kind} {text!r}" if len(text) <= 60 else f"{kind} {text[:50]!r}…",
+        f"neither a shipped {kind} nor a file",
+        f"one of {', '.join(shipped)}, or the path of a TOML file",
+        f"did you mean {near[0]}?" if near else "check the spelling and the folder",
+    )
+    raise InputError(str(fault))
 
 
 def write_text(path: str | Path, text: str) -> None:

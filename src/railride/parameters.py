@@ -11,8 +11,6 @@ table of texts by key.
 
 from __future__ import annotations
 
-import difflib
-import os
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields
 from pathlib import Path
@@ -23,10 +21,10 @@ from railride.body_segments import Segment
 from railride.body_sources import Elements, ModeFiles
 from railride.body_tables import body_lines, read_body
 from railride.car_body import CarBody
-from railride.errors import Fault, Faults, InputError
-from railride.files import data_path, write_text
+from railride.errors import Faults
+from railride.files import shipped_names, shipped_or_file, write_text
 from railride.record_tables import note_all_missing, note_missing, read_values, written
-from railride.toml_tables import Table, read_toml, shown, toml_text
+from railride.toml_tables import Table, read_toml, toml_text
 from railride.vehicle_data import (
     Bogie,
     Equipment,
@@ -68,7 +66,7 @@ def shipped_vehicles() -> tuple[str, ...]:
     >>> shipped_vehicles()
     ('cati2024', 'ice3', 'manchester', 'shinkansen_s300')
     """
-    return tuple(sorted(path.stem for path in data_path("vehicles").glob("*.toml")))
+    return shipped_names("vehicle")
 
 
 def load_vehicle(name_or_path: str | Path) -> Vehicle:
@@ -83,20 +81,7 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
     >>> load_vehicle("cati2024").bogies[0].primary_stiffness
     5000000.0
     """
-    text = str(name_or_path)
-    shipped = shipped_vehicles()
-    if text in shipped:
-        return _read_vehicle(data_path("vehicles", f"{text}.toml"))
-    if os.path.exists(text):  # noqa: PTH110 - unlike Path.exists, False for what is no path at all
-        return _read_vehicle(Path(text))
-    near = difflib.get_close_matches(text.removesuffix(".toml"), shipped, n=1)
-    fault = Fault(
-        f"vehicle {shown(text)}",
-        "neither a shipped vehicle nor a file",
-        f"one of {', '.join(shipped)}, or the path of a TOML file",
-        f"did you mean {near[0]}?" if near else "check the spelling and the folder",
-    )
-    raise InputError(str(fault))
+    return _read_vehicle(shipped_or_file(name_or_path, "vehicle"))
 
 
 def _read_vehicle(path: Path) -> Vehicle:

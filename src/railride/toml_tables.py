@@ -114,7 +114,8 @@ class Table:
         self._asked.append(name)
         return self.content.get(name)
 
-    def _fault(self, name: str, found: str, expected: str, mend: str = "") -> None:
+    def fault(self, name: str, found: str, expected: str, mend: str = "") -> None:
+        """Note what is wrong under a key."""
         self.faults.add(self.key(name), found, expected, mend)
 
     def quantity(self, name: str, unit: str, sign: str = "") -> float | None:
@@ -133,7 +134,7 @@ class Table:
             return None
         if not isinstance(value, list):
             example = f'["1.25 {unit}", "-1.25 {unit}"]'
-            self._fault(name, shown(value), f"a list such as {example}")
+            self.fault(name, shown(value), f"a list such as {example}")
             return None
         found = [self._parse(f"{name}[{i}]", item, unit, sign) for i, item in enumerate(value, 1)]
         known = tuple(item for item in found if item is not None)
@@ -145,11 +146,11 @@ class Table:
         try:
             si = parse_quantity(repr(value) if number else value, unit)
         except QuantityError as error:
-            self._fault(name, error.found, error.expected, error.mend)
+            self.fault(name, error.found, error.expected, error.mend)
             return None
         expected = expected_sign(si, sign)
         if expected:
-            self._fault(name, shown(value), expected)
+            self.fault(name, shown(value), expected)
             return None
         return si
 
@@ -158,7 +159,7 @@ class Table:
         value = self._take(name)
         if value is None or isinstance(value, str):
             return value
-        self._fault(name, shown(value), 'a text in quotation marks, "…"')
+        self.fault(name, shown(value), 'a text in quotation marks, "…"')
         return None
 
     def texts(self, name: str) -> tuple[str, ...]:
@@ -168,7 +169,7 @@ class Table:
             return ()
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return tuple(value)
-        self._fault(name, shown(value), 'a list of texts, ["…", "…"]')
+        self.fault(name, shown(value), 'a list of texts, ["…", "…"]')
         return ()
 
     def whole(self, name: str) -> int | None:
@@ -176,8 +177,42 @@ class Table:
         value = self._take(name)
         if value is None or (isinstance(value, int) and not isinstance(value, bool)):
             return value
-        self._fault(name, shown(value), "a whole number")
+        self.fault(name, shown(value), "a whole number")
         return None
+
+    def flag(self, name: str) -> bool | None:
+        """Truth value of a key; None if it is absent or faulty."""
+        value = self._take(name)
+        if value is None or isinstance(value, bool):
+            return value
+        self.fault(name, shown(value), "true or false, without quotation marks")
+        return None
+
+    def choice(self, name: str, choices: Sequence[str]) -> str | None:
+        """One of some texts; None if it is absent or faulty."""
+        value = self.text(name)
+        return value if value is None or self._is_one(name, value, choices) else None
+
+    def choices(self, name: str, choices: Sequence[str]) -> tuple[str, ...]:
+        """Texts of a list of them, each one of some; empty if it is absent or faulty."""
+        found = self.texts(name)
+        fit = [self._is_one(f"{name}[{i}]", text, choices) for i, text in enumerate(found, 1)]
+        return found if all(fit) else ()
+
+    def _is_one(self, name: str, value: str, choices: Sequence[str]) -> bool:
+        if value not in choices:
+            near = difflib.get_close_matches(value, choices, n=1)
+            mend = f"did you mean {near[0]}?" if near else ""
+            self.fault(name, shown(value), f"one of {', '.join(choices)}", mend)
+        return value in choices
+
+    def missing(self, name: str, form: str, mend: str = "the key is missing") -> None:
+        """Note that a key that must be there is not; nothing where it is.
+
+        form: how it is written, such as ``name = "number unit"``.
+        """
+        if name not in self.content:
+            self.fault(name, "nothing", form, mend)
 
     def table(self, name: str) -> Table | None:
         """Table ``[name]`` inside this one; None if it is absent."""
@@ -190,7 +225,7 @@ class Table:
         if value is None:
             return ()
         if not isinstance(value, list):
-            self._fault(name, shown(value), f"a list of tables, each headed [[{name}]]")
+            self.fault(name, shown(value), f"a list of tables, each headed [[{name}]]")
             return ()
         return tuple(
             Table(item, f"{self.key(name)}[{i}]", self.faults) for i, item in enumerate(value, 1)
@@ -217,7 +252,7 @@ class Table:
             if name not in known:
                 near = difflib.get_close_matches(name, known, n=2, cutoff=0.5)
                 mend = f"did you mean {' or '.join(near)}?" if near else ""
-                self._fault(name, "a key that is not known", f"one of {', '.join(listed)}", mend)
+                self.fault(name, "a key that is not known", f"one of {', '.join(listed)}", mend)
 
 
 def finite_number(value: object) -> float | None:
