@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from railride import InputError, derive_vehicle, read_study, spectrum, synthesise, write_track
+from railride.distributions import Distribution
 from railride.studies import Draft, Listed, Range, shipped_studies
 
 HEAD = """
@@ -93,6 +94,12 @@ def test_defaults(study):
     ride = study(HEAD).ride
     assert (ride.positions, ride.floor, ride.weight) == ((0.0,), "smooth", "Wk")
     assert (ride.results, ride.tracks[0].name) == (("a_wrms",), "erri_low")
+
+
+def test_distributions_are_read(study):
+    text = HEAD + '[parameters.k_2]\ndistribution = "normal"\ndeviation = "5 %"\n'
+    (found,) = study(text).parameters
+    assert found.spec == Distribution("normal", mean=750e3, deviation=37.5e3)
 
 
 def test_a_range_has_both_ends_and_equal_steps():
@@ -214,6 +221,12 @@ nunber = 3
         (HEAD + "[parameters]\nk_2 = 3\n", ["3; expected a table [parameters.k_2]"]),
         (HEAD.replace("segments = 2", 'kind = "gas"'), ["body: kind: found 'gas'"]),
         (HEAD.replace("cati2024", "manchester"), ["bending"]),
+        (HEAD + '[parameters.k_2]\ndistribution = "normal"\ndeviation = "30 %"\nto = "3 MN/m"',
+         ["parameters.k_2: found normal", "cut it: from"]),
+        (HEAD + '[parameters.k_2]\ndistribution = "normal"\ndeviation = "5 %"\nvalues = []',
+         ["parameters.k_2: found a distribution and values"]),
+        (HEAD + '[parameters.k_2]\ndistribution = "uniform"\nfrom = "3 N/m"\npoints = 3\n',
+         ["parameters.k_2.to", "parameters.k_2.points"]),
         ("schema = 2\n" + HEAD, ["schema: found 2"]),
     ],
 )  # fmt: skip

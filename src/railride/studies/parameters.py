@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from railride.distributions import Distribution, note_impossible, read_distribution
 from railride.errors import InputError
 from railride.studies.ranges import Listed, Range, read_listed, read_range
 from railride.toml_tables import Table
 from railride.vehicle import VehicleModel
+
+Spec = Range | Listed | Distribution
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,7 @@ class StudyParameter:
     unit: str
     meaning: str
     nominal: float
-    spec: Range | Listed | None = None
+    spec: Spec | None = None
 
     @property
     def heading(self) -> str:
@@ -65,6 +68,12 @@ class Names:
         meaning, unit = self._meanings[symbol]
         return StudyParameter(name, symbol, unit, meaning, float(self._values[symbol]))
 
+    def note_impossible(self, parameter: StudyParameter, table: Table) -> None:
+        """Note, under the parameter's table, values that the model cannot have."""
+        if isinstance(parameter.spec, Distribution):
+            note_impossible(self._model, {parameter.symbol: parameter.spec}, table.faults,
+                            table.where)  # fmt: skip
+
     def sign(self, parameter: StudyParameter) -> str:
         """What its values must be: "> 0", ">= 0", or "" for any."""
         symbol = self._symbols.get(parameter.symbol)
@@ -82,14 +91,20 @@ def read_parameters(tables: Mapping[str, Table], names: Names) -> tuple[StudyPar
         except InputError as error:
             table.faults.include(table.where, error)
             continue
-        spec = _read_spec(table, parameter.unit, names.sign(parameter))
+        parameter = replace(parameter, spec=_read_spec(table, parameter, names.sign(parameter)))
         table.finish()
-        found.append(StudyParameter(**{**vars(parameter), "spec": spec}))
+        names.note_impossible(parameter, table)
+        found.append(parameter)
     return tuple(found)
 
 
-def _read_spec(table: Table, unit: str, sign: str) -> Range | Listed | None:
+def _read_spec(table: Table, parameter: StudyParameter, sign: str) -> Spec | None:
     """What stands there; two kinds of it at once are a fault."""
+    unit = parameter.unit
+    if "distribution" in table:
+        if "values" in table:
+            table.faults.add(table.where, "a distribution and values", "one of them")
+        return read_distribution(table, unit, parameter.nominal)
     kinds = {"values": "values", "from": "a range", "to": "a range"}
     given = sorted({kind for key, kind in kinds.items() if key in table})
     if len(given) > 1:
