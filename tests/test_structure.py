@@ -27,6 +27,7 @@ track trackfile response weightings scales comfort records stochastic timerun ri
 comparison
 distributions
 changed_vehicle
+sensitivities
 studies
 markup text report halfbody_report plots cli derive __main__
 """.split()

@@ -68,6 +68,13 @@ class Triangular:
             y[i] /= s - self.T[i, i]
         return y
 
+    def adjoint(self, s: NDArray[Any], y: NDArray[Any]) -> NDArray[Any]:
+        """x of xᵀ (s - T) = yᵀ at every s, written over y: shapes (F,) and (states, F)."""
+        for i in range(len(y)):
+            y[i] += self.T[:i, i] @ y[:i]
+            y[i] /= s - self.T[i, i]
+        return y
+
 
 def triangular(m: Matrices) -> Triangular:
     """The triangular form of one vehicle's matrices.

@@ -69,14 +69,66 @@ class MatrixFunction:
                              "for every symbol of the model")  # fmt: skip
         arrays = [np.asarray(values[s.name], dtype=float) for s in self.symbols]
         shape = np.broadcast_shapes(*(a.shape for a in arrays))
-        entries = [np.broadcast_to(e, shape) for e in self._evaluate(*arrays)]
-        stacked = np.stack(entries, axis=-1) if entries else np.zeros((*shape, 0))
+        found = self._evaluate(*arrays)
+        if not shape:
+            stacked = np.array(found, dtype=float)
+        elif found:
+            stacked = np.stack([np.broadcast_to(e, shape) for e in found], axis=-1)
+        else:
+            stacked = np.zeros((*shape, 0))
         result = {}
         for name, (places, numbers) in self._places.items():
             A = np.zeros((*shape, *self._shapes[name]))
             A[..., places[:, 0], places[:, 1]] = stacked[..., numbers]
             result[name] = A
         return result
+
+
+class MatrixDerivative:
+    r"""Named symbolic matrices differentiated along parameters, every symbol moving with them.
+
+    .. math:: \frac{dA}{dp} = \sum_s \frac{\partial A}{\partial s} \frac{ds}{dp}
+
+    Parameters
+    ----------
+    matrices : name → matrix, of any shapes.
+
+    Calling it with name → value and name → ds/dp, (P,), gives name → array (P, rows, columns).
+
+    >>> k, l = sp.symbols("k l")
+    >>> derivative = MatrixDerivative({"K": sp.Matrix([[k, k * l]])})
+    >>> derivative({"k": 2.0, "l": 3.0}, {"k": [1.0, 0.0], "l": [0.0, 1.0]})["K"].tolist()
+    [[[1.0, 3.0]], [[0.0, 2.0]]]
+    """
+
+    def __init__(self, matrices: Mapping[str, sp.MatrixBase]) -> None:
+        self._shapes = {name: A.shape for name, A in matrices.items()}
+        entries = {name: A.todok() for name, A in matrices.items()}
+        unique = {e for dok in entries.values() for e in dok.values()}
+        symbols: set[sp.Symbol] = set().union(*(e.free_symbols for e in unique))
+        self.symbols: tuple[sp.Symbol, ...] = tuple(sorted(symbols, key=lambda s: s.name))
+        number = {symbol: k for k, symbol in enumerate(self.symbols)}
+        slopes = {e: {number[s]: e.diff(s) for s in e.free_symbols} for e in unique}
+        stacked = {}  # ∂A/∂s of every symbol s, one below the other
+        for name, dok in entries.items():
+            rows, columns = self._shapes[name]
+            stacked[name] = sp.ImmutableSparseMatrix(len(number) * rows, columns, {
+                (k * rows + i, j): slope
+                for (i, j), e in dok.items() for k, slope in slopes[e].items()
+            })  # fmt: skip
+        self._partial = MatrixFunction(stacked)
+
+    def __call__(self, values: Values, slopes: Values) -> dict[str, Array]:
+        """The matrices' derivatives at the values; raises as :class:`MatrixFunction`."""
+        partial = self._partial(values)
+        if not self.symbols:
+            count = np.size(next(iter(slopes.values()), ()))
+            return {name: np.zeros((count, *shape)) for name, shape in self._shapes.items()}
+        J = np.stack([np.asarray(slopes[s.name], dtype=float) for s in self.symbols], axis=-1)
+        return {
+            name: (J @ A.reshape(len(self.symbols), -1)).reshape(len(J), *self._shapes[name])
+            for name, A in partial.items()
+        }
 
 
 @dataclass(frozen=True)

@@ -192,6 +192,11 @@ class RunningGear:
             f"bogie {b}", f"b{b}", _places(positions, "l_b", "x_b")[b - 1], positions[b - 1]
         )
 
+    @property
+    def wheelset_places(self) -> list[sp.Expr]:
+        """x of every wheelset, from the front: its bogie's position and its place there."""
+        return [self.place(b).x + lever for b in self.bogies for _, lever in self.levers(b)]
+
     def levers(self, b: int) -> list[tuple[int, sp.Expr]]:
         """The wheelsets of bogie b: number on the vehicle, and place on the bogie."""
         wheelsets = self.vehicle.bogies[b - 1].wheelsets

@@ -175,7 +175,10 @@ class VehicleModel:
         >>> model.matrices(k_2=[6e5, 7e5, 8e5]).K.shape
         (3, 7, 7)
         """
-        values = self.values(**changes)
+        return self.matrices_at(self.values(**changes))
+
+    def matrices_at(self, values: Mapping[str, Array]) -> Matrices:
+        """The linear matrices at values in hand, those of :meth:`values`."""
         for place in self._places.values():
             self.body.check_moved(place, values)
         matrices = Matrices(**self._numeric(values), lift=self.lift)

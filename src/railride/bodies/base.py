@@ -14,7 +14,7 @@ import sympy as sp
 from railride.errors import InputError
 from railride.lagrange import Coordinate, Lagrangian
 from railride.linear import linearise
-from railride.numeric import Array, MatrixFunction, symmetric_eigenvalues
+from railride.numeric import Array, MatrixDerivative, MatrixFunction, symmetric_eigenvalues
 from railride.parameters import CarBody, Load
 from railride.toml_tables import finite_number
 
@@ -125,6 +125,16 @@ class BodyModel(ABC):
         del values, wanted
         return {}
 
+    def dependent_slopes(
+        self, values: Mapping[str, Array], slopes: Mapping[str, Array], wanted: Iterable[sp.Symbol]
+    ) -> dict[str, Array]:
+        """Derivatives, (P,), of those of the ``wanted`` symbols for which there is a formula.
+
+        values : of all parameters, numbers. slopes : derivatives of the others, (P,).
+        """
+        del values, slopes, wanted
+        return {}
+
     @property
     @abstractmethod
     def lift(self) -> Mapping[Coordinate, int]:
@@ -180,8 +190,16 @@ class BodyModel(ABC):
 
     @cached_property
     def _free(self) -> MatrixFunction:
+        return MatrixFunction(self._free_linear)
+
+    @cached_property
+    def _free_linear(self) -> dict[str, sp.ImmutableSparseMatrix]:
         linear = linearise(self.energies)
-        return MatrixFunction({"M": linear.M, "K": linear.K})
+        return {"M": linear.M, "K": linear.K}
+
+    @cached_property
+    def _free_derivative(self) -> MatrixDerivative:
+        return MatrixDerivative(self._free_linear)
 
     def free_matrices(self, values: Mapping[str, Array]) -> dict[str, Array]:
         """M and K of the empty body alone, free in space: (..., n, n) in its own coordinates."""
@@ -192,3 +210,17 @@ class BodyModel(ABC):
         A = self.free_matrices(values)
         squares = symmetric_eigenvalues(A["M"], A["K"])[..., 2:]
         return np.asarray(np.sqrt(np.maximum(squares, 0)) / (2 * np.pi))
+
+    def bending_slope(self, values: Mapping[str, Array], slopes: Mapping[str, Array]) -> Array:
+        r"""Relative derivative of the first bending's ω², (P,), by the derivatives of all else.
+
+        .. math:: \frac{d\ln\omega^2}{dp} = \frac{1}{\omega^2} \varphi^T \left(\frac{dK}{dp}
+                  - \omega^2 \frac{dM}{dp}\right) \varphi, \qquad \varphi^T M \varphi = 1
+
+        Source: R.L. Fox, M.P. Kapoor, AIAA J. 6 (1968) 2426-2429, Eq 7.
+        """
+        A, dA = self.free_matrices(values), self._free_derivative(values, slopes)
+        inverse = np.linalg.inv(np.linalg.cholesky(A["M"]))
+        squares, vectors = np.linalg.eigh(inverse @ A["K"] @ inverse.T)
+        shape = inverse.T @ vectors[:, 2]
+        return np.asarray(shape @ (dA["K"] / squares[2] - dA["M"]) @ shape)

@@ -206,6 +206,48 @@ class Joints:
                     found[symbol.name] = time * found[stiffness.name]
         return {s.name: found[s.name] for s in (*self.stiffness, *self.damping) if s in k | c}
 
+    def follow_slopes(
+        self,
+        values: Mapping[str, Array],
+        slopes: Mapping[str, Array],
+        wanted: Iterable[sp.Symbol],
+        free: BodyModel,
+    ) -> dict[str, Array]:
+        r"""Derivatives of those of the wanted k and c that one frequency or none calibrates, (P,).
+
+        .. math:: \frac{dk}{k} = 2 \frac{df}{f} - \frac{d\omega_1^2}{\omega_1^2}\Big|_k, \qquad
+                  c = t k, \quad t = \beta \text{ or } \frac{\zeta}{\pi f_1}
+
+        values : of all parameters, numbers. slopes : of the others. free : the body, free in space.
+        """
+        wanted = set(wanted)
+        k, c = wanted & set(self.stiffness), wanted & set(self.damping)
+        found = dict(slopes)
+        if k and (k != set(self.stiffness) or len(self.targets) != 1):
+            return {}
+        if k:
+            (f,) = (symbol.name for symbol in self.targets)
+            fixed = dict.fromkeys((symbol.name for symbol in k), np.zeros_like(slopes[f]))
+            relative = 2 * slopes[f] / values[f] - free.bending_slope(values, {**slopes, **fixed})
+            found |= {symbol.name: values[symbol.name] * relative for symbol in k}
+        if c:
+            time, slope = self._time_slope(values, found, free)
+            for damping, stiffness in zip(self.damping, self.stiffness, strict=True):
+                k_j = stiffness.name
+                found[damping.name] = time * found[k_j] + values[k_j] * slope
+        return {symbol.name: found[symbol.name] for symbol in k | c}
+
+    def _time_slope(
+        self, values: Mapping[str, Array], slopes: Mapping[str, Array], free: BodyModel
+    ) -> tuple[Array, Array]:
+        """c/k of the joints, and its derivative (P,)."""
+        if zeta_bending.name not in values:
+            return values[beta.name], slopes[beta.name]
+        zeta, first = values[zeta_bending.name], free.bending_frequencies(values)[..., 0]
+        relative = free.bending_slope(values, slopes) / 2  # of the frequency
+        slope = (slopes[zeta_bending.name] - zeta * relative) / (np.pi * first)
+        return zeta / (np.pi * first), slope
+
     def _calibrated(self, values: Mapping[str, Array], free: BodyModel) -> Sequence[Array]:
         """Stiffness of each joint, scaled to the one frequency or calibrated to several."""
         begun = {k.name: np.asarray(k_0) for k, k_0 in zip(self.stiffness, self.start, strict=True)}

@@ -185,6 +185,12 @@ class SegmentedBody(BodyModel):
         """Stiffness and damping of the joints, as :class:`~railride.bodies.joints.Joints` knows."""
         return self.joints.follow(values, wanted, self)
 
+    def dependent_slopes(
+        self, values: Mapping[str, Array], slopes: Mapping[str, Array], wanted: Iterable[sp.Symbol]
+    ) -> dict[str, Array]:
+        """Those of the joints' stiffness and damping, unless several frequencies calibrate them."""
+        return self.joints.follow_slopes(values, slopes, wanted, self)
+
     def height(self, place: Place) -> sp.Expr:
         """On the polygon: there the suspensions are attached."""
         self.check_point(place.at)

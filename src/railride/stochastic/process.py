@@ -31,7 +31,7 @@ Complex = NDArray[np.complex128]
 
 BAND_HZ = (0.05, 80.0)
 UNDAMPED = 1e-10  # damping ratio below which a mode counts as undamped
-_LINE = 1e-8  # half the width of an undamped mode's line, of its frequency
+LINE = 1e-8  # half the width of an undamped mode's line, of its frequency
 _MOST_IN_LINE = 1e-6  # of the mean square
 _PANELS_TOGETHER = 2000  # at a time: what the memory need not notice
 _EPSILON = float(np.finfo(float).eps)
@@ -112,7 +112,7 @@ class Process:
         ------
         InputError : an undamped mode that takes part in an output.
         """
-        undamped, per_panel = self._undamped(), self._rounding()
+        undamped, per_panel = self.undamped(), self._rounding()
         parts: list[tuple[Array, Array]] = []
         squares: Array | float = 0.0
         in_line: Array | float = 0.0
@@ -121,7 +121,7 @@ class Process:
             S_y = (H.real**2 + H.imag**2) * self.elevation_density(f)
             S = np.stack([gain.power(f) * S_y for gain in self.gains])
             if undamped.size:
-                near = np.abs(f - undamped[:, np.newaxis]) < _LINE * f
+                near = np.abs(f - undamped[:, np.newaxis]) < LINE * f
                 in_line += S @ (near * df).T
             squares += S**2 @ df
             by_panel = (*S.shape[:-1], length.size, -1)
@@ -130,10 +130,10 @@ class Process:
             parts.append((values, errors))
         values, errors = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
         found = Integrals(self.edges, values, errors, np.asarray(squares))
-        _refuse_lines(undamped, np.asarray(in_line), found.mean_square)
+        refuse_lines(undamped, np.asarray(in_line), found.mean_square)
         return found
 
-    def _undamped(self) -> Array:
+    def undamped(self) -> Array:
         """Frequencies of undamped modes, Hz, each once."""
         roots = self.eigenvalues[self.eigenvalues.imag > 0]
         least = np.maximum(UNDAMPED * np.abs(roots), 10 * _EPSILON * np.abs(roots).max(initial=0.0))
@@ -152,7 +152,7 @@ class Process:
         return np.asarray(10 * _EPSILON + 2 * moved / np.maximum(away, moved))
 
 
-def _refuse_lines(undamped: Array, in_line: Array, mean_square: Array) -> None:
+def refuse_lines(undamped: Array, in_line: Array, mean_square: Array) -> None:
     """Refuse undamped modes (U,) that hold a share of a mean square: (..., U) of (...)."""
     if not undamped.size:
         return
@@ -208,6 +208,7 @@ def process(
     *,
     band: tuple[float, float] = BAND_HZ,
     ends: Sequence[float] = (),
+    form: Triangular | None = None,
 ) -> Process:
     """Outputs as stationary processes, from matrices in hand.
 
@@ -216,13 +217,14 @@ def process(
     m, rows : of one vehicle, ``VehicleModel.matrices`` and ``VehicleModel.output_rows``.
     places : of the wheelsets, m forward (``Vehicle.wheelset_positions``). speed : V, m/s, > 0.
     gains : weightings to integrate with. band : from and to, Hz. ends : where panels must end, Hz.
+    form : of the vehicle, where it is in hand.
 
     Raises
     ------
     InputError : speed ≤ 0, an unstable vehicle, a spectrum with nothing in the band.
     """
     check_speed(speed)
-    form = triangular(m)
+    form = triangular(m) if form is None else form
     delays = (places[0] - np.asarray(places, dtype=float)) / speed
     edges = panel_edges(form, delays, speed, spectrum, gains, band, ends)
     return Process(
