@@ -23,7 +23,7 @@ from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
 __all__ = ["DAMPER", "UNSTABLE", "Mode", "Solution", "eigen", "free_motions", "modes",
-           "refuse_unstable", "solve", "undamped_frequencies"]  # fmt: skip
+           "refuse_unstable", "solution", "solve", "undamped_frequencies"]  # fmt: skip
 
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
 FOREMOST = 1 - 1e-6  # of the largest entry: what is as large is equal to it
@@ -111,7 +111,11 @@ class Solution:
 
 def solve(model: VehicleModel, **changes: ArrayLike) -> Solution:
     """The eigenvalue problem of one vehicle, solved; raises as :func:`modes` does."""
-    A = model.matrices(**changes)
+    return solution(model, model.matrices(**changes))
+
+
+def solution(model: VehicleModel, A: Matrices) -> Solution:
+    """The eigenvalue problem of a model's matrices in hand, solved; raises as :func:`modes`."""
     x, free = first_order(A), motions(model, A)
     roots, vectors = eigen(A)
     refuse_unstable(roots)

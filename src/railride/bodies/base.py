@@ -49,6 +49,12 @@ class Place:
         factor, symbol = self.x.as_coeff_Mul()
         return np.asarray(float(factor) * (values[symbol.name] if symbol.is_Symbol else 1.0))
 
+    def slope(self, slopes: Mapping[str, Array]) -> Array:
+        """Its derivatives (P,) by those of the parameters; 0 where it is a number."""
+        factor, symbol = self.x.as_coeff_Mul()
+        moves = symbol.is_Symbol
+        return np.asarray(float(factor) * slopes[symbol.name] if moves else 0.0)
+
 
 @dataclass(frozen=True)
 class BodyModel(ABC):

@@ -22,7 +22,7 @@ from railride.bodies.base import Parameter
 from railride.bodies.body_modes import BodyModes
 from railride.bodies.cuts import L
 from railride.bodies.joints import EI, f_bending
-from railride.bodies.modal import ModalBody
+from railride.bodies.modal import ModalBody, along
 from railride.bodies.rigid import m_c
 from railride.bodies.structural_damping import mode_frequency
 from railride.bodies.uniform_beam import UniformBeam
@@ -109,6 +109,15 @@ class BeamBody(ModalBody):
     def shapes_at(self, x: Array, values: Mapping[str, Array]) -> Array:
         """φ_i(x) of the beam as the values have it."""
         return self._beam(values).shapes(x)
+
+    def shape_slopes_at(
+        self, x: Array, dx: Array, values: Mapping[str, Array], slopes: Mapping[str, Array]
+    ) -> Array | None:
+        """Of the slender beam, whose shapes are functions of x/L; Timoshenko's have no formula."""
+        if self.shears:
+            return None
+        stretched = np.multiply.outer(slopes[L.name], x / values[L.name])
+        return along(self._beam(values).slopes(x), dx - stretched)
 
     def _beam(self, values: Mapping[str, Array]) -> UniformBeam:
         others = (values.get(symbol.name) for symbol in (f_bending, EI, shear, rotary))

@@ -273,6 +273,37 @@ class ModalBody(BodyModel):
             found[symbol.name] = np.asarray((product * weights).sum(axis=-1))
         return found
 
+    def shape_slopes_at(
+        self, x: Array, dx: Array, values: Mapping[str, Array], slopes: Mapping[str, Array]
+    ) -> Array | None:
+        """dφ_i/dp at points x (q,) that move by dx (..., q): (n, ..., q); None where unknown."""
+        del values, slopes
+        return None if self.modes.slopes is None else along(self.modes.slopes(x), dx)
+
+    def dependent_slopes(
+        self, values: Mapping[str, Array], slopes: Mapping[str, Array], wanted: Iterable[sp.Symbol]
+    ) -> dict[str, Array]:
+        """Those of the shapes where something is attached, where the shapes' slopes are known."""
+        found = {}
+        for symbol in wanted:
+            if not isinstance(symbol, Shape):
+                continue
+            x, weights, phi = self._sampled(symbol.span, values)
+            (rear, front), ends = symbol.span, [place.value(values) for place in symbol.span]
+            u = (x - ends[0]) / (ends[1] - ends[0]) if rear != front else np.zeros(1)
+            dx = np.multiply.outer(rear.slope(slopes), 1 - u)
+            dx = dx + np.multiply.outer(front.slope(slopes), u)
+            dphi = self.shape_slopes_at(x, dx, values, slopes)
+            if dphi is None:
+                return {}
+            factors = [(x, dx)] * symbol.power + [(phi[i - 1], dphi[i - 1]) for i in symbol.modes]
+            total = np.zeros_like(x)
+            for k, (_, change) in enumerate(factors):
+                others = [factor for j, (factor, _) in enumerate(factors) if j != k]
+                total = total + change * np.prod(others, axis=0)
+            found[symbol.name] = np.asarray(total @ weights)
+        return found
+
     def _sampled(
         self, span: tuple[Place, Place], values: Mapping[str, Array]
     ) -> tuple[Array, Array, Array]:
@@ -292,3 +323,8 @@ class ModalBody(BodyModel):
 
 def _count(n: int) -> str:
     return f"{n} bending mode{'s' * (n != 1)}"
+
+
+def along(slopes: Array, dx: Array) -> Array:
+    """φ_i' dx of slopes (n, q) and moves (..., q): (n, ..., q)."""
+    return slopes.reshape(len(slopes), *[1] * (dx.ndim - 1), -1) * dx
