@@ -212,9 +212,11 @@ def refuse_untrustworthy(matrices: Matrices, coordinates: Sequence[str]) -> None
     q, n = coordinates, matrices.K.shape[-1]
     K = matrices.K.reshape(-1, n, n)
     scale = np.sqrt(np.maximum(np.diagonal(K, axis1=-2, axis2=-1), np.finfo(float).tiny))
-    held, shapes = np.linalg.eigh(K / (scale[:, :, np.newaxis] * scale[:, np.newaxis, :]))
-    if held[:, 0].min() < HELD:
-        loose = q[int(np.argmax(np.abs(shapes[int(np.argmin(held[:, 0])), :, 0])))]
+    scaled = K / (scale[:, :, np.newaxis] * scale[:, np.newaxis, :])
+    held = np.linalg.eigvalsh(scaled)[:, 0]
+    if held.min() < HELD:
+        _, shapes = np.linalg.eigh(scaled[int(np.argmin(held))])
+        loose = q[int(np.argmax(np.abs(shapes[:, 0])))]
         raise InputError(
             f"K: found a motion that no spring holds, mostly along {loose}; expected a vehicle "
             "that stands by itself (a bogie needs two wheelsets, or it can turn about one)"

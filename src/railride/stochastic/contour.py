@@ -35,7 +35,8 @@ from railride.stochastic.quadrature import REACH, distances, gauss_points, grade
 
 POINTS = 10  # on every panel
 RAY = 1 + 1j  # direction: away from the weightings' poles, below those of higher modes
-_LONGEST, _RATIO = 0.8, 6.0  # panels of the ray: first of ω_2, then from one to the next
+FALLING = (0.8, 6.0)  # the ray's panels, iω_2 + ω_2 RAY y: y of the last, from one to the next
+LEVEL = (4.8, 3.0)  # where K does not fall, and what its lags leave is felt more
 _DECAY = 3.0  # of the longest lag's exponential, over the shortest panel
 _NONE = np.zeros(0, dtype=complex)
 
@@ -82,31 +83,45 @@ class Contour:
 
 
 def contour(
-    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float], q: Complex
+    densities: tuple[Gain, ...],
+    gaps: tuple[float, ...],
+    band: tuple[float, float],
+    q: Complex,
+    panels: tuple[float, float] = FALLING,
 ) -> Contour:
-    """The contour of a band, Hz, whose panels shrink towards the poles q of K where they must."""
-    usual = _usual(densities, gaps, band)
-    return usual if usual.resolves(q) else _contour(densities, gaps, band, q)
+    """The contour of a band, Hz, whose panels shrink towards the poles q of K where they must.
+
+    panels : of the ray, :data:`FALLING`, or :data:`LEVEL` where K does not fall.
+    """
+    usual = _usual(densities, gaps, band, panels)
+    return usual if usual.resolves(q) else _contour(densities, gaps, band, q, panels)
 
 
 @lru_cache(maxsize=64)
 def _usual(
-    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float]
+    densities: tuple[Gain, ...],
+    gaps: tuple[float, ...],
+    band: tuple[float, float],
+    panels: tuple[float, float],
 ) -> Contour:
     """The contour that most vehicles share, its panels shrinking towards the poles of Φ alone."""
-    return _contour(densities, gaps, band, _NONE)
+    return _contour(densities, gaps, band, _NONE, panels)
 
 
 def _contour(
-    densities: tuple[Gain, ...], gaps: tuple[float, ...], band: tuple[float, float], q: Complex
+    densities: tuple[Gain, ...],
+    gaps: tuple[float, ...],
+    band: tuple[float, float],
+    q: Complex,
+    panels: tuple[float, float],
 ) -> Contour:
     """The contour with panels that shrink towards the poles of Φ and q, and to the longest lag."""
     corner, lag = 2 * np.pi * band[1], sum(gaps)
     of_Phi = 2j * np.pi * np.concatenate([density.poles for density in densities])
     q = np.concatenate([q, of_Phi, -of_Phi, of_Phi.conj(), -of_Phi.conj()])
-    far = [_LONGEST]
+    far = [panels[0]]
     while far[-1] * corner * lag > _DECAY:
-        far.append(far[-1] / _RATIO)
+        far.append(far[-1] / panels[1])
     ends = [0.0, *(y / (1 + y) for y in reversed(far)), 1.0]
     along = graded_panels(ends, _along(q, corner), 1.0)
     u, du = gauss_points(along, POINTS)

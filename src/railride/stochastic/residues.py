@@ -26,8 +26,13 @@ import numpy as np
 
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum
-from railride.stochastic.contour import POINTS, Contour, contour
-from railride.stochastic.fractions import PartialFractions, partial_fractions
+from railride.stochastic.contour import FALLING, LEVEL, POINTS, Contour, contour
+from railride.stochastic.fractions import (
+    EigenForms,
+    PartialFractions,
+    eigen_forms,
+    partial_fractions,
+)
 from railride.stochastic.gains import Complex, Gain, rational
 from railride.stochastic.process import UNDAMPED, covered_band
 from railride.stochastic.quadrature import gauss_errors
@@ -46,6 +51,7 @@ def residue_squares(
     spectrum: Spectrum,
     gains: Sequence[Gain],
     band: tuple[float, float],
+    forms: EigenForms | None = None,
 ) -> tuple[Array, Array] | None:
     """Mean squares and their estimated relative errors, (vehicles, speeds, gains, outputs).
 
@@ -54,27 +60,26 @@ def residue_squares(
 
     Returns
     -------
-    squares, errors : None where the spectrum is not rational, the outputs have no partial
-        fractions, a density does not fall towards infinity, or ``places`` are in no order.
+    squares, errors : None where the spectrum is not rational, a density does not fall towards
+        infinity, or ``places`` are in no order.
     """
     tracks = [rational(spectrum, V) for V in speeds]
     if None in tracks or (np.diff(places) > 0).any():
         return None
     with np.errstate(all="ignore"):  # what comes of it is not finite, and not trusted
-        g = partial_fractions(m, rows)
-        if g is None:
-            return None
+        g = partial_fractions(forms or eigen_forms(m), rows)
         densities = [_densities(S_w, g.power, tuple(gains)) for S_w in tracks if S_w is not None]
-        if any(len(Phi.square_zeros) > len(Phi.square_poles) for Phi in densities[0]):
-            return None  # Φ grows as K falls
+        growth = g.direct.shape[1]  # K falls as s^(2 growth - 2)
+        if any(len(Phi.square_zeros) + growth > len(Phi.square_poles) for Phi in densities[0]):
+            return None
         gaps = [tuple((-np.diff(places) / V).tolist()) for V in speeds]
         bands = [covered_band(spectrum, V, band) for V in speeds]
-        found = []
+        ray, found = LEVEL if growth else FALLING, []
         for start in range(0, len(g.poles), _TOGETHER):
             some = g[start : start + _TOGETHER]
             q = np.concatenate([some.poles, -some.poles], axis=None)
             q = q[q.imag >= 0]  # beside the path
-            paths = [contour(*of, q) for of in zip(densities, gaps, bands, strict=True)]
+            paths = [contour(*of, q, ray) for of in zip(densities, gaps, bands, strict=True)]
             found.append(_squares(some, paths))
     squares, errors = zip(*found, strict=True)
     return np.concatenate(squares), np.concatenate(errors)

@@ -9,6 +9,7 @@ import numpy as np
 from railride.errors import InputError
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum, check_speed
+from railride.stochastic.fractions import EigenForms
 from railride.stochastic.gains import PLAIN, Gain
 from railride.stochastic.process import BAND_HZ, covered_band, process
 from railride.stochastic.residues import residue_squares
@@ -45,13 +46,34 @@ def mean_squares(
     InputError : no speeds, a speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one
         that is unstable, or in whose output an undamped mode takes part.
     """
+    squares, errors, refused = squares_of_many(m, rows, places, speeds, spectrum, gains, band)
+    if refused and m.M.ndim == 2:
+        raise InputError(refused[0])
+    return squares, errors
+
+
+def squares_of_many(
+    m: Matrices,
+    rows: Mapping[str, Array],
+    places: Sequence[float],
+    speeds: Sequence[float],
+    spectrum: Spectrum,
+    gains: Sequence[Gain] = (PLAIN,),
+    band: tuple[float, float] = BAND_HZ,
+    forms: EigenForms | None = None,
+) -> tuple[Array, Array, dict[int, str]]:
+    """Mean squares, their errors, and why vehicles, by their numbers, have none.
+
+    Arguments, results and errors as for :func:`mean_squares`, but that no vehicle is refused.
+    forms : of the vehicles, where they are known.
+    """
     if not len(speeds):
         raise InputError("speeds: found none; expected at least one, in m/s")
     for speed in speeds:
         check_speed(speed)
         covered_band(spectrum, speed, band)
     try:
-        found = residue_squares(m, rows, places, speeds, spectrum, gains, band)
+        found = residue_squares(m, rows, places, speeds, spectrum, gains, band, forms)
     except np.linalg.LinAlgError:  # no eigenvectors
         found = None
     if found is None:
@@ -60,19 +82,19 @@ def mean_squares(
         found = np.full(shape, np.nan), np.full(shape, np.inf)
     squares, errors = found
     doubtful = ~(errors <= TRUSTED)
+    refused: dict[int, str] = {}
     for d, k in np.argwhere(doubtful.any(axis=(2, 3))).tolist():
         vehicle = _one(m, rows, d)
         try:
             by_rule = process(*vehicle, places, speeds[k], spectrum, gains, band=band).integrals()
-        except InputError:
-            if m.M.ndim == 2:
-                raise
+        except InputError as error:
             squares[d, k], errors[d, k] = np.nan, np.inf
+            refused.setdefault(d, str(error))
             continue
         replace = doubtful[d, k]
         squares[d, k][replace] = by_rule.mean_square[replace]
         errors[d, k][replace] = by_rule.error[replace]
-    return squares, errors
+    return squares, errors, refused
 
 
 def _one(
