@@ -29,6 +29,7 @@ distributions
 changed_vehicle
 sensitivities
 studies
+uncertainty
 markup text report halfbody_report plots cli derive __main__
 """.split()
 

@@ -48,12 +48,14 @@ _WHERE = {
     "distributions": ("Distribution", "sample"),
     "changed_vehicle": ("vehicle_with",),
     "studies": ("Study", "read_study", "shipped_studies"),
+    "uncertainty": ("Uncertainty",),
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
               "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",
               "plot_loci", "plot_loop_spectra", "plot_loops", "plot_modes", "plot_record",
               "plot_record_rating", "plot_record_spectrum", "plot_ride", "plot_running_rms",
-              "plot_root_locus", "plot_track", "plot_track_overview", "plot_track_spectrum"),
+              "plot_root_locus", "plot_track", "plot_track_overview", "plot_track_spectrum",
+              "plot_sobol_indices", "plot_uncertainty", "plot_uncertainty_study"),
     "errors": ("InputError",),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

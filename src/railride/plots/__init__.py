@@ -30,6 +30,11 @@ from railride.plots.stochastic import (
     plot_comfort_over_speed,
 )
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
+from railride.plots.uncertainty import (
+    plot_sobol_indices,
+    plot_uncertainty,
+    plot_uncertainty_study,
+)
 
 __all__ = [
     "MOST_MODES",
@@ -56,9 +61,12 @@ __all__ = [
     "plot_ride",
     "plot_root_locus",
     "plot_running_rms",
+    "plot_sobol_indices",
     "plot_track",
     "plot_track_overview",
     "plot_track_spectrum",
+    "plot_uncertainty",
+    "plot_uncertainty_study",
     "save",
     "save_ride_plots",
 ]
