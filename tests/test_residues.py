@@ -572,14 +572,14 @@ def test_what_vanishes_at_rest_cancels_what_is_infinite_there():
 
 
 def test_panels_of_a_contour_shrink_towards_the_vehicles_poles():
-    densities, gaps, band = (Gain(1.0, (), (-4.0, -9.0)),), (0.1, 0.2), (0.05, 80.0)
+    densities, lag, band = (Gain(1.0, (), (-4.0, -9.0)),), 0.3, (0.05, 80.0)
     near = 2j * np.pi * np.array([80.01, 0.04 + 1e-4j, 20.0])
-    usual = contour(densities, gaps, band, near[2:])
-    assert usual is contour(densities, gaps, band, near[2:])
+    usual = contour(densities, lag, band, near[2:])
+    assert usual is contour(densities, lag, band, near[2:])
     assert usual.resolves(near[2:])
     for pole in near[:2]:
         assert not usual.resolves(np.array([pole]))
-        assert contour(densities, gaps, band, np.array([pole])).resolves(np.array([pole]))
+        assert contour(densities, lag, band, np.array([pole])).resolves(np.array([pole]))
     beyond = 2j * np.pi * 80.0 + RAY * 1.0 + 0.1j
     assert usual.holds(np.array([beyond - 0.2j]))[0]
     assert not usual.holds(np.array([beyond]))[0]

@@ -214,7 +214,7 @@ def geometric_zeros(
     -------
     tuple : one for each distance whose zeros the model has; a distance without is left out.
     """
-    delays = wheelset_delays(model, speed)
+    delays = wheelset_delays(model, speed, **changes)
     found = []
     for cause, distance in _distances(model):
         count = min(int(np.floor(highest * distance / speed + 0.5)), _MOST_ZEROS)

@@ -19,7 +19,7 @@ Schur in place of the Hessenberg form; N.J. Higham, Accuracy and Stability of Nu
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -134,7 +134,7 @@ def responses(
         outputs = [FLOOR if outputs is None else outputs]
     # One by one: a name may come twice here, where nothing is called by its name.
     chosen = [chosen_outputs(model, y)[0] for y in outputs]
-    excite = [_excitation(model, source, speed) for source in sources]
+    excite = [_excitation(model, source, speed, changes) for source in sources]
     m, Y = model.matrices(**changes), model.output_rows(chosen, **changes)
     form = triangular(m)
     lost = _lost(form, omega)
@@ -236,14 +236,14 @@ def frequency_response(
     )  # fmt: skip
 
 
-def wheelset_delays(model: VehicleModel, speed: float) -> Array:
+def wheelset_delays(model: VehicleModel, speed: float, **changes: ArrayLike) -> Array:
     """l_j/V of every wheelset, s, from the leading one."""
-    places = np.array(model.vehicle.wheelset_positions)
+    places = model.wheelset_places(**changes)
     return np.asarray((places[0] - places) / speed)
 
 
 def _excitation(
-    model: VehicleModel, source: str, speed: float | None
+    model: VehicleModel, source: str, speed: float | None, changes: Mapping[str, ArrayLike]
 ) -> tuple[Array, Array, Array]:
     """Delay, s, and gain of every wheelset's elevation, and the forces: what a source of 1 does."""
     wheelsets = [w.name for w in model.lagrangian.inputs]
@@ -254,7 +254,7 @@ def _excitation(
             raise InputError("speed: found none; expected a speed above zero, in m/s: the track "
                              "reaches the wheelsets one after another")  # fmt: skip
         check_speed(speed)
-        return wheelset_delays(model, speed), rest + 1.0, idle
+        return wheelset_delays(model, speed, **changes), rest + 1.0, idle
     if source not in (*wheelsets, *forces):
         raise InputError(f"source: found {source!r}; expected one of "
                          f"{', '.join([TRACK, *wheelsets, *forces])}")  # fmt: skip

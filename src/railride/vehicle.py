@@ -35,7 +35,9 @@ from railride.running_gear import (
     secondary_deflection,
 )
 
-_DERIVED_ONCE = ("lagrangian", "linear", "_numeric", "_rows", "_values")
+_DERIVED_ONCE = (
+    "lagrangian", "linear", "_numeric", "_rows", "_values", "_places_of_wheelsets",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -192,6 +194,20 @@ class VehicleModel:
         return np.array([
             float(body.get(q, q in self._places)) for q in self.lagrangian.coordinates
         ])  # fmt: skip
+
+    def wheelset_places(self, **changes: ArrayLike) -> Array:
+        """Where the wheelsets are, m forward of the body's middle: shape (..., wheelsets).
+
+        >>> from railride.parameters import load_vehicle
+        >>> model = derive_vehicle(load_vehicle("cati2024"), segments=2)
+        >>> model.wheelset_places(l_b=9.0).tolist()
+        [10.25, 7.75, -7.75, -10.25]
+        """
+        return self._places_of_wheelsets(self.values(**changes))["x"][..., 0, :]
+
+    @cached_property
+    def _places_of_wheelsets(self) -> MatrixFunction:
+        return MatrixFunction({"x": sp.Matrix([self.running_gear.wheelset_places])})
 
     def pitch(self, **changes: ArrayLike) -> Array:
         """The coordinates of a small turn of the whole vehicle about the body's middle, per rad.

@@ -74,7 +74,7 @@ def third_octaves(
     gains = (PLAIN, weighted(weighting(weight)))
     m, rows = floor_in_hand(model, at, floor, changes)
     found = process(
-        m, rows, model.vehicle.wheelset_positions, speed, spectrum, gains,
+        m, rows, model.wheelset_places(**changes).tolist(), speed, spectrum, gains,
         band=(float(edges[0]), float(edges[-1])), ends=edges.tolist(),
     ).integrals()  # fmt: skip
     middles = (found.edges[:-1] + found.edges[1:]) / 2

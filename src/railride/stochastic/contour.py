@@ -45,14 +45,13 @@ _NONE = np.zeros(0, dtype=complex)
 class Contour:
     """Where K is needed for one speed, and with what it counts.
 
-    densities : Φ of every gain. gaps : delays from one wheelset to the next, s. corner : ω_2.
+    densities : Φ of every gain. corner : ω_2.
     points : s (N,), poles of Φ first, then those on panels. weights : (gains, N, 1); what is not
     the vehicle's poles' is Re Σ weights · K. along, low : edges of the panels of the ray, u with s
     = iω_2 + ω_2 RAY u/(1 - u), and of those from 0 to f_1, Hz. df : of the points on panels.
     """
 
     densities: tuple[Gain, ...]
-    gaps: Array
     corner: float
     points: Complex
     weights: Complex
@@ -84,39 +83,40 @@ class Contour:
 
 def contour(
     densities: tuple[Gain, ...],
-    gaps: tuple[float, ...],
+    lag: float,
     band: tuple[float, float],
     q: Complex,
     panels: tuple[float, float] = FALLING,
 ) -> Contour:
     """The contour of a band, Hz, whose panels shrink towards the poles q of K where they must.
 
-    panels : of the ray, :data:`FALLING`, or :data:`LEVEL` where K does not fall.
+    lag : from the first wheelset to the last, s. panels : of the ray, :data:`FALLING`, or
+    :data:`LEVEL` where K does not fall.
     """
-    usual = _usual(densities, gaps, band, panels)
-    return usual if usual.resolves(q) else _contour(densities, gaps, band, q, panels)
+    usual = _usual(densities, lag, band, panels)
+    return usual if usual.resolves(q) else _contour(densities, lag, band, q, panels)
 
 
 @lru_cache(maxsize=64)
 def _usual(
     densities: tuple[Gain, ...],
-    gaps: tuple[float, ...],
+    lag: float,
     band: tuple[float, float],
     panels: tuple[float, float],
 ) -> Contour:
     """The contour that most vehicles share, its panels shrinking towards the poles of Φ alone."""
-    return _contour(densities, gaps, band, _NONE, panels)
+    return _contour(densities, lag, band, _NONE, panels)
 
 
 def _contour(
     densities: tuple[Gain, ...],
-    gaps: tuple[float, ...],
+    lag: float,
     band: tuple[float, float],
     q: Complex,
     panels: tuple[float, float],
 ) -> Contour:
     """The contour with panels that shrink towards the poles of Φ and q, and to the longest lag."""
-    corner, lag = 2 * np.pi * band[1], sum(gaps)
+    corner = 2 * np.pi * band[1]
     of_Phi = 2j * np.pi * np.concatenate([density.poles for density in densities])
     q = np.concatenate([q, of_Phi, -of_Phi, of_Phi.conj(), -of_Phi.conj()])
     far = [panels[0]]
@@ -135,7 +135,6 @@ def _contour(
     on_ray = 0.5j / np.pi * corner * RAY * du / (1 - u) ** 2 * _density(densities, ray)
     return Contour(
         densities,
-        np.array(gaps),
         corner,
         np.concatenate([own, ray, axis]),
         np.hstack([weights, on_ray, -df * _density(densities, axis)])[..., np.newaxis],

@@ -110,7 +110,7 @@ def extremes(
     faults.raise_if_any()
     m, rows = in_hand(model, chosen, changes)
     gains = tuple(moment(gain, k) for gain in (PLAIN, low_pass(corner)) for k in (0, 2))
-    places = model.vehicle.wheelset_positions
+    places = model.wheelset_places(**changes).tolist()
     found = process(m, rows, places, speed, spectrum, gains, band=band).integrals()
     squares, errors = found.mean_square, found.error
     result = []

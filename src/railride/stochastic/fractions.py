@@ -53,11 +53,14 @@ class EigenForms:
 
 
 def eigen_forms(m: Matrices) -> EigenForms:
-    """Of one or many vehicles; numpy's LinAlgError where one has no eigenvectors."""
+    """Of one or many vehicles; where one has too few eigenvectors, its fractions are none."""
     x, wheelsets = first_orders(m), m.K_w.shape[-1]
     poles, V = (part.astype(complex) for part in np.linalg.eig(_many(x.A)))
     B_w = _many(x.B @ np.concatenate([m.K_w, m.C_w], axis=-1))
-    into = np.linalg.solve(V, B_w.astype(complex))
+    try:
+        into = np.linalg.solve(V, B_w.astype(complex))
+    except np.linalg.LinAlgError:  # two eigenvectors are one to the last bit
+        into = np.linalg.pinv(V) @ B_w
     into = into[..., :wheelsets] + poles[..., np.newaxis] * into[..., wheelsets:]
     return EigenForms(m, x, poles, V, into)
 

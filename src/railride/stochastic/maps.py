@@ -86,9 +86,9 @@ def comfort_map(
     spectrum, remarks = track_spectrum(track, speeds)
     weight = weighting(weight)
     m, rows = floor_in_hand(model, places, floor, changes)
+    wheelsets = model.wheelset_places(**changes)
     gains, parts = (PLAIN, weighted(weight), sperling()), []
     for number, speed in enumerate(speeds, start=1):
-        wheelsets = model.vehicle.wheelset_positions
         squares, errors = mean_squares(m, rows, wheelsets, [speed], spectrum, gains)
         a, a_w, a_B = np.sqrt(squares[0, 0])
         parts.append(

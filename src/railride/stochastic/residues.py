@@ -23,6 +23,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum
@@ -46,7 +47,7 @@ _EPSILON = float(np.finfo(float).eps)
 def residue_squares(
     m: Matrices,
     rows: Mapping[str, Array],
-    places: Sequence[float],
+    places: ArrayLike,
     speeds: Sequence[float],
     spectrum: Spectrum,
     gains: Sequence[Gain],
@@ -63,6 +64,7 @@ def residue_squares(
     squares, errors : None where the spectrum is not rational, a density does not fall towards
         infinity, or ``places`` are in no order.
     """
+    places = np.asarray(places, dtype=float)
     tracks = [rational(spectrum, V) for V in speeds]
     if None in tracks or (np.diff(places) > 0).any():
         return None
@@ -72,15 +74,17 @@ def residue_squares(
         growth = g.direct.shape[1]  # K falls as s^(2 growth - 2)
         if any(len(Phi.square_zeros) + growth > len(Phi.square_poles) for Phi in densities[0]):
             return None
-        gaps = [tuple((-np.diff(places) / V).tolist()) for V in speeds]
         bands = [covered_band(spectrum, V, band) for V in speeds]
         ray, found = LEVEL if growth else FALLING, []
         for start in range(0, len(g.poles), _TOGETHER):
             some = g[start : start + _TOGETHER]
             q = np.concatenate([some.poles, -some.poles], axis=None)
             q = q[q.imag >= 0]  # beside the path
-            paths = [contour(*of, q, ray) for of in zip(densities, gaps, bands, strict=True)]
-            found.append(_squares(some, paths))
+            ahead = -np.diff(places[start : start + _TOGETHER] if places.ndim > 1 else places)
+            gaps = [ahead[..., np.newaxis, :] / V for V in speeds]
+            lags = [_longest(gap) for gap in gaps]
+            paths = [contour(*of, q, ray) for of in zip(densities, lags, bands, strict=True)]
+            found.append(_squares(some, gaps, paths))
     squares, errors = zip(*found, strict=True)
     return np.concatenate(squares), np.concatenate(errors)
 
@@ -92,10 +96,24 @@ def _densities(S_w: Gain, power: int, gains: tuple[Gain, ...]) -> tuple[Gain, ..
     return tuple(S_w * motion * gain for gain in gains)
 
 
-def _squares(g: PartialFractions, paths: Sequence[Contour]) -> tuple[Array, Array]:
-    """Mean squares and relative errors, (D, speeds, gains, outputs)."""
+def _longest(gaps: Array) -> float:
+    """The longest of the lags of wheelsets (..., wheelsets - 1), s; of many, as good as that."""
+    lag = float(gaps.sum(axis=-1).max())
+    if gaps.ndim < 3 or not lag:
+        return lag
+    digit = 10 ** (np.floor(np.log10(lag)) - 1)  # few contours for many lags
+    return float(np.ceil(lag / digit) * digit)
+
+
+def _squares(
+    g: PartialFractions, gaps: Sequence[Array], paths: Sequence[Contour]
+) -> tuple[Array, Array]:
+    """Mean squares and relative errors, (D, speeds, gains, outputs).
+
+    gaps : delays from one wheelset to the next, s, (1, wheelsets - 1) or (D, 1, wheelsets - 1).
+    """
     mirrored = g.response(-g.poles)
-    each = [_integrals(g, mirrored, path) for path in paths]
+    each = [_integrals(g, mirrored, *of) for of in zip(gaps, paths, strict=True)]
     squares, errors, shares = (np.stack(part, axis=1) for part in zip(*each, strict=True))
     largest = (shares / np.abs(squares)[..., np.newaxis, :]).max(axis=(1, 2, 4))
     largest[g.poles.imag < 0] = 0.0  # as large as their conjugates
@@ -108,16 +126,18 @@ def _squares(g: PartialFractions, paths: Sequence[Contour]) -> tuple[Array, Arra
     return squares, errors
 
 
-def _integrals(g: PartialFractions, mirrored: Complex, path: Contour) -> tuple[Array, Array, Array]:
+def _integrals(
+    g: PartialFractions, mirrored: Complex, gaps: Array, path: Contour
+) -> tuple[Array, Array, Array]:
     """Mean squares, their errors but for those of g, (D, gains, outputs), and the poles' shares.
 
     mirrored : g at -p. Shares : their absolute values, (D, gains, s, outputs).
     """
     s, N = path.points, path.points.size
     there = g.response(np.concatenate([s, -s]))
-    K = _pairs(there[:, :N], there[:, N:], np.exp(-np.multiply.outer(s, path.gaps)))
+    K = _pairs(there[:, :N], there[:, N:], np.exp(-s[:, np.newaxis] * gaps))
     parts = (path.weights * K[:, np.newaxis]).real
-    K = _pairs(mirrored, g.apart(g.residues), np.exp(np.multiply.outer(g.poles, path.gaps)))
+    K = _pairs(mirrored, g.apart(g.residues), np.exp(g.poles[..., np.newaxis] * gaps))
     half = 0.5 * path.holds(-g.poles) * path.density(g.poles)
     shares = np.moveaxis(half, 0, 1)[..., np.newaxis] * K[:, np.newaxis]
     size, lengths = np.abs(shares), path.lengths

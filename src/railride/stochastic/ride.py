@@ -98,7 +98,7 @@ def stochastic_ride(
     at = several(at, "at", "m")
     m, rows = floor_in_hand(model, at, floor, changes)
     gains = (PLAIN, weighted(weighting(weight)), sperling())
-    places = model.vehicle.wheelset_positions
+    places = model.wheelset_places(**changes).tolist()
     squares, errors = (of[0, 0] for of in mean_squares(m, rows, places, [speed], spectrum, gains,
                                                        band))  # fmt: skip
     scatter = process(m, rows, places, speed, spectrum, gains[1:2], band=band).integrals().squares

@@ -91,7 +91,7 @@ def mode_shares(
     at = several(at, "at", "m")
     m, rows = floor_in_hand(model, at, floor, changes)
     gain = weighted(weighting(weight))
-    places = model.vehicle.wheelset_positions
+    places = model.wheelset_places(**changes).tolist()
     whole = process(m, rows, places, speed, spectrum, (gain, PLAIN))
     whole.integrals()  # refuses modes that never settle
     x = first_order(m)

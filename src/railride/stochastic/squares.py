@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from railride.errors import InputError
 from railride.numeric import Array, Matrices
@@ -21,7 +22,7 @@ NAMES = ("M", "C", "K", "K_w", "C_w", "B_f")
 def mean_squares(
     m: Matrices,
     rows: Mapping[str, Array],
-    places: Sequence[float],
+    places: ArrayLike,
     speeds: Sequence[float],
     spectrum: Spectrum,
     gains: Sequence[Gain] = (PLAIN,),
@@ -33,7 +34,8 @@ def mean_squares(
     ----------
     m, rows : of one vehicle, or of many with one leading axis (``VehicleModel.matrices`` and
         ``VehicleModel.output_rows``; the rows without it where they are the same for all).
-    places : of the wheelsets, m forward (``Vehicle.wheelset_positions``). speeds : m/s, each > 0.
+    places : of the wheelsets, m forward, (wheelsets,), or (vehicles, wheelsets) where they differ
+        (``VehicleModel.wheelset_places``). speeds : m/s, each > 0.
     gains : weightings. band : from and to, Hz.
 
     Returns
@@ -55,7 +57,7 @@ def mean_squares(
 def squares_of_many(
     m: Matrices,
     rows: Mapping[str, Array],
-    places: Sequence[float],
+    places: ArrayLike,
     speeds: Sequence[float],
     spectrum: Spectrum,
     gains: Sequence[Gain] = (PLAIN,),
@@ -67,15 +69,13 @@ def squares_of_many(
     Arguments, results and errors as for :func:`mean_squares`, but that no vehicle is refused.
     forms : of the vehicles, where they are known.
     """
+    places = np.asarray(places, dtype=float)
     if not len(speeds):
         raise InputError("speeds: found none; expected at least one, in m/s")
     for speed in speeds:
         check_speed(speed)
         covered_band(spectrum, speed, band)
-    try:
-        found = residue_squares(m, rows, places, speeds, spectrum, gains, band, forms)
-    except np.linalg.LinAlgError:  # no eigenvectors
-        found = None
+    found = residue_squares(m, rows, places, speeds, spectrum, gains, band, forms)
     if found is None:
         outputs = rows["d"].shape[-2]
         shape = (len(m.M) if m.M.ndim > 2 else 1, len(speeds), len(gains), outputs)
@@ -84,9 +84,11 @@ def squares_of_many(
     doubtful = ~(errors <= TRUSTED)
     refused: dict[int, str] = {}
     for d, k in np.argwhere(doubtful.any(axis=(2, 3))).tolist():
-        vehicle = _one(m, rows, d)
+        vehicle, own = _one(m, rows, d), places[d] if places.ndim > 1 else places
         try:
-            by_rule = process(*vehicle, places, speeds[k], spectrum, gains, band=band).integrals()
+            by_rule = process(
+                *vehicle, own.tolist(), speeds[k], spectrum, gains, band=band
+            ).integrals()
         except InputError as error:
             squares[d, k], errors[d, k] = np.nan, np.inf
             refused.setdefault(d, str(error))
