@@ -25,6 +25,7 @@ plausibility bodies carried running_gear parameter_values vehicle
 firstorder naming modal loci statespace spectra frequency bodes
 track trackfile response weightings scales comfort records stochastic timerun rides active
 comparison
+designs
 distributions
 changed_vehicle
 sensitivities

@@ -45,6 +45,7 @@ _WHERE = {
     "active": ("Loop", "loop_spectra", "lqg", "rate_loops", "semi_active_ride", "skyhook",
                "suspension_signals"),
     "comparison": ("Comparison", "compare_bodies"),
+    "designs": ("DesignValues", "evaluate_designs"),
     "distributions": ("Distribution", "sample"),
     "changed_vehicle": ("vehicle_with",),
     "studies": ("Study", "read_study", "shipped_studies"),

@@ -152,6 +152,11 @@ class Matrices:
     lift: Array
 
     @property
+    def by_name(self) -> dict[str, Array]:
+        """The six matrices by name."""
+        return {name: getattr(self, name) for name in ("M", "C", "K", "K_w", "C_w", "B_f")}
+
+    @property
     def inertial(self) -> NDArray[np.bool_]:
         """Which coordinates carry mass, (n,): the others have zero rows in M."""
         return np.asarray((self.M != 0).any(axis=-1).reshape(-1, self.M.shape[-1]).any(axis=0))
@@ -170,8 +175,8 @@ class Matrices:
         return M, K_II - K_Im @ np.linalg.solve(K_mm, np.swapaxes(K_Im, -1, -2))
 
     def __post_init__(self) -> None:
-        for name in ("M", "C", "K", "K_w", "C_w", "B_f"):
-            if not np.isfinite(getattr(self, name)).all():
+        for name, A in self.by_name.items():
+            if not np.isfinite(A).all():
                 raise InputError(f"{name}: found a value that is no finite number; expected "
                                  "finite parameters, lengths other than zero")  # fmt: skip
         for name in ("M", "C", "K"):

@@ -192,11 +192,18 @@ def in_hand(
 def floor_in_hand(
     model: VehicleModel, at: Sequence[float], floor: str, changes: Mapping[str, ArrayLike]
 ) -> tuple[Matrices, dict[str, Array]]:
-    """Matrices, and the rows of the floor's acceleration at points, as numbers.
+    """Matrices, and the rows of the floor's acceleration at points, as numbers."""
+    return model.matrices(**changes), floor_rows(model, at, floor, changes)
+
+
+def floor_rows(
+    model: VehicleModel, at: Sequence[float], floor: str, changes: Mapping[str, ArrayLike]
+) -> dict[str, Array]:
+    """The rows of the floor's acceleration at points, as numbers.
 
     The height is Y_d q, so that the acceleration is Y_d q̈: no need to differentiate it in symbols.
     """
     heights = [model.floor(float(x), floor, derivative=0) for x in at]
-    m, rows = in_hand(model, heights, changes)
+    rows = model.output_rows(heights, **changes)
     height, none = rows["d"], np.zeros_like(rows["d"])
-    return m, {**rows, "a": height, "v": none, "d": none}
+    return {**rows, "a": height, "v": none, "d": none}

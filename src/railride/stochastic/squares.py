@@ -16,7 +16,6 @@ from railride.stochastic.process import BAND_HZ, covered_band, process
 from railride.stochastic.residues import residue_squares
 
 TRUSTED = 1e-8  # relative error of a residue sum above which it is integrated after all
-NAMES = ("M", "C", "K", "K_w", "C_w", "B_f")
 
 
 def mean_squares(
@@ -105,7 +104,7 @@ def _one(
     """Matrices and rows of one vehicle of several, or of the only one."""
     if m.M.ndim == 2:
         return m, rows
-    own = {name: getattr(m, name)[number] for name in NAMES}
+    own = {name: A[number] for name, A in m.by_name.items()}
     return Matrices(**own, lift=m.lift), {
         name: row[number] if row.ndim > 2 else row for name, row in rows.items()
     }

@@ -1,0 +1,117 @@
+"""Values of many designs: arrays with named axes, and tables with one row per design."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from railride.numeric import Array
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+FLOOR = ("track", "speed", "position")
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """One kind of value of every design: ``values`` (D, …), one axis more for each of ``axes``.
+
+    name : of the array. said : in columns, after what it is of. unit : SI, "" of a pure number.
+    """
+
+    name: str
+    said: str
+    unit: str
+    axes: tuple[str, ...]
+    values: Array
+
+    def column(self, labels: Mapping[str, str]) -> str:
+        """The column of one case, by its labels on the axes."""
+        first = [labels[axis] for axis in self.axes if axis not in FLOOR]
+        words = [*first, self.said, *(labels[axis] for axis in self.axes if axis in FLOOR)]
+        return headed(" ".join(filter(None, words)), self.unit)
+
+
+@dataclass(frozen=True, eq=False)
+class DesignValues:
+    """What D designs come to over every case.
+
+    parameters : name as given → (D,), SI. units : of each of them, "" of a pure number.
+    tracks, speeds (m/s), positions (m forward of the body's middle) : the cases.
+    a_wrms, a_rms : m/s², wz : (D, tracks, speeds, positions); None where not asked for. NaN where
+    there is no value. error : (D,), the largest estimated relative error of a design's values.
+    problems : (D,), why a design lacks values, "" where it has them all. remarks : what to know.
+    """
+
+    parameters: Mapping[str, Array]
+    units: Mapping[str, str]
+    tracks: tuple[str, ...]
+    speeds: tuple[float, ...]
+    positions: tuple[float, ...]
+    error: Array
+    problems: NDArray[np.object_]
+    a_wrms: Array | None = None
+    a_rms: Array | None = None
+    wz: Array | None = None
+    remarks: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.problems)
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What there is, in the order of the table's columns."""
+        every = (
+            _quantity("a_wrms", "a_wrms", "m/s^2", FLOOR, self.a_wrms),
+            _quantity("a_rms", "a_rms", "m/s^2", FLOOR, self.a_rms),
+            _quantity("wz", "wz", "", FLOOR, self.wz),
+        )
+        return tuple(quantity for quantity in every if quantity is not None)
+
+    @property
+    def labels(self) -> dict[str, list[str]]:
+        """How the places on each axis are called in columns."""
+        return {
+            "track": list(self.tracks),
+            "speed": [f"{3.6 * speed:.9g} km/h" for speed in self.speeds],
+            "position": [f"{x:.9g} m" for x in self.positions],
+        }
+
+    def table(self) -> pd.DataFrame:
+        """One row per design: its parameters, a column for every value, "error" and "problem".
+
+        Columns name case and unit, "a_wrms erri_low 145 km/h 0 m [m/s^2]", and depend on the cases
+        alone. ``table.attrs["remarks"]`` : the remarks.
+        """
+        import pandas as pd
+
+        given = {headed(name, self.units[name]): of for name, of in self.parameters.items()}
+        columns = given | dict(self._columns())
+        table = pd.DataFrame({**columns, "error": self.error, "problem": self.problems})
+        table.attrs["remarks"] = list(self.remarks)
+        return table
+
+    def _columns(self) -> Iterator[tuple[str, Array]]:
+        labels = self.labels
+        for quantity in self.quantities:
+            cases = product(*(labels[axis] for axis in quantity.axes))
+            each = quantity.values.reshape(len(self), -1).T
+            for case, values in zip(cases, each, strict=True):
+                yield quantity.column(dict(zip(quantity.axes, case, strict=True))), values
+
+
+def _quantity(
+    name: str, said: str, unit: str, axes: tuple[str, ...], values: Array | None
+) -> Quantity | None:
+    return None if values is None else Quantity(name, said, unit, axes, values)
+
+
+def headed(name: str, unit: str) -> str:
+    """A column's heading: the unit in brackets, where there is one."""
+    return f"{name} [{unit}]" if unit else name

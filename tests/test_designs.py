@@ -1,0 +1,167 @@
+"""Many designs at once: each is what it is alone, and none stops the others."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from vehicles import paper_coach, random_model
+
+from railride import designs as package
+from railride.designs import evaluate_designs
+from railride.errors import InputError
+from railride.parameters import load_vehicle
+from railride.stochastic import stochastic_ride
+from railride.vehicle import derive_vehicle
+
+KMH = 1 / 3.6
+SPEEDS = (145 * KMH, 200 * KMH)
+
+
+def drawn(seed, count, **centres):
+    """Values of parameters, each within a factor of 1.5 of its centre."""
+    rng = np.random.default_rng(seed)
+    return {name: value * rng.uniform(2 / 3, 3 / 2, count) for name, value in centres.items()}
+
+
+SUSPENSION = {"k_1": 5e6, "c_1": 30e3, "k_2": 750e3, "c_2": 70e3}
+
+
+# Each design as if it were alone
+
+
+@pytest.mark.parametrize(
+    "model", [paper_coach(1), paper_coach(4, bending_damping=0.01),
+              derive_vehicle("cati2024", body="beam", modes=3, bending_damping=0.01)],
+    ids=["rigid", "segments", "beam"],
+)  # fmt: skip
+def test_comfort_values_are_those_of_the_ride(model):
+    designs = drawn(1, 3, **SUSPENSION)
+    given = evaluate_designs(model, designs, ["erri_low", "sncf_good"], SPEEDS, [0.0, 6.0],
+                             results=["a_wrms", "a_rms", "wz"])  # fmt: skip
+    assert given.a_wrms.shape == (3, 2, 2, 2)
+    for d in range(3):
+        own = {name: values[d] for name, values in designs.items()}
+        for t, track in enumerate(given.tracks):
+            for v, speed in enumerate(SPEEDS):
+                alone = stochastic_ride(model, speed, track, [0.0, 6.0], **own)
+                for name in ("a_wrms", "a_rms", "wz"):
+                    np.testing.assert_allclose(getattr(given, name)[d, t, v],
+                                               getattr(alone, name), rtol=1e-9)  # fmt: skip
+    assert (given.error < 1e-8).all()
+    assert list(given.problems) == [""] * 3
+
+
+def test_wheelsets_that_move_are_reached_where_they_are():
+    """Bogies and axles apart by other distances: as the vehicle built anew with them."""
+    vehicle = load_vehicle("cati2024")
+    model = derive_vehicle(vehicle, segments=1)
+    designs = {"l_b": [8.0, 9.0], "l_w": [1.1, 1.4]}
+    found = evaluate_designs(model, designs, "erri_low", SPEEDS, 3.0)
+    for d, (half, axle) in enumerate(zip(*designs.values(), strict=True)):
+        bogies = tuple(replace(bogie, position=np.sign(bogie.position) * half,
+                               wheelsets=(axle, -axle)) for bogie in vehicle.bogies)  # fmt: skip
+        built = derive_vehicle(replace(vehicle, bogies=bogies), segments=1)
+        for v, speed in enumerate(SPEEDS):
+            for made, changes in ((built, {}), (model, {"l_b": half, "l_w": axle})):
+                alone = stochastic_ride(made, speed, "erri_low", 3.0, **changes).a_wrms
+                np.testing.assert_allclose(found.a_wrms[d, 0, v], alone, rtol=1e-9)
+
+
+def test_what_is_changed_may_touch_no_matrix():
+    vehicle = load_vehicle("cati2024")
+    bogies = tuple(replace(bogie, wheelset_mass=1200.0) for bogie in vehicle.bogies)
+    model = derive_vehicle(replace(vehicle, bogies=bogies), segments=2)
+    found = evaluate_designs(model, {"m_w": [1000.0, 1500.0]}, "erri_low", SPEEDS)
+    alone = stochastic_ride(model, SPEEDS[1], "erri_low").a_wrms
+    np.testing.assert_allclose(found.a_wrms[:, 0, 1], [alone, alone], rtol=1e-11)
+    nothing = evaluate_designs(model, {}, "erri_low", SPEEDS)
+    np.testing.assert_allclose(nothing.a_wrms[:, 0, 1], [alone], rtol=1e-11)
+
+
+def test_batches_join_without_a_seam(monkeypatch):
+    model, designs = random_model(1, 2), drawn(2, 11, k_2_b1=5e5)
+    whole = evaluate_designs(model, designs, "erri_low", SPEEDS)
+    monkeypatch.setattr(package.evaluate, "TOGETHER", 4)
+    done = []
+    parts = evaluate_designs(model, designs, "erri_low", SPEEDS, progress=done.append)
+    np.testing.assert_allclose(parts.a_wrms, whole.a_wrms, rtol=1e-13)
+    np.testing.assert_allclose(done, [4 / 11, 8 / 11, 1.0])
+
+
+# Designs that cannot be
+
+
+def test_one_that_cannot_be_does_not_stop_the_others():
+    model = paper_coach(2)
+    designs = {"k_2": [7e5, -1.0, np.nan, 7e5, 7e5, 7e5], "c_2": [7e4, 7e4, 7e4, -5e3, 0.0, 7e4],
+               "c_1": [3e4, 3e4, 3e4, 3e4, 0.0, 0.0]}  # fmt: skip
+    found = evaluate_designs(model, designs, "erri_low", SPEEDS)
+    assert np.isfinite(found.a_wrms[[0, 5]]).all()
+    assert np.isnan(found.a_wrms[1:5]).all()
+    said = ["", "-1.0 for k_2", "nan for k_2", "", "", ""]
+    assert all(part in problem for part, problem in zip(said, found.problems, strict=True))
+    assert "unstable" in found.problems[3]
+    assert "without damping" in found.problems[4]
+    assert found.problems[0] == found.problems[5] == ""
+    (remark,) = found.remarks
+    assert "4 of 6 designs lack values" in remark
+    assert "design 2" in remark
+
+
+def test_all_that_cannot_be():
+    found = evaluate_designs(paper_coach(1), {"k_2": [-1.0, -2.0]}, "erri_low", SPEEDS)
+    assert np.isnan(found.a_wrms).all()
+    assert found.table()["problem"].str.contains("above 0").all()
+
+
+# Tables
+
+
+def test_a_table_has_a_row_for_each_design():
+    designs = pd.DataFrame({"secondary_stiffness": [6e5, 9e5], "zeta_bending": [0.01, 0.02]})
+    found = evaluate_designs(paper_coach(2), designs, ["erri_low", "fra_4"], SPEEDS, [0.0, -2.5],
+                             results=["wz", "a_wrms"])  # fmt: skip
+    table = found.table()
+    assert list(table)[:3] == ["secondary_stiffness [N/m]", "zeta_bending",
+                               "a_wrms erri_low 145 km/h 0 m [m/s^2]"]  # fmt: skip
+    assert list(table)[-2:] == ["error", "problem"]
+    assert "wz fra_4 200 km/h -2.5 m" in table
+    assert len(table) == len(found) == 2
+    assert table.shape[1] == 2 + 2 * 8 + 2
+    column = table["a_wrms fra_4 145 km/h -2.5 m [m/s^2]"]
+    np.testing.assert_array_equal(column, found.a_wrms[:, 1, 0, 1])
+
+
+# What the caller gave
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"designs": {"k_3": [1.0]}}, "did you mean"),
+        ({"designs": {"k_2": [1.0], "secondary_stiffness": [1.0]}}, "both k_2"),
+        ({"designs": {"k_2": [1.0, 2.0], "c_2": [1.0, 2.0, 3.0]}}, "2 of k_2, 3 of c_2"),
+        ({"designs": {"k_2": []}}, "found none"),
+        ({"designs": {"k_2": ["soft"]}}, "numbers in SI units"),
+        ({"designs": {"k_2": [[1.0]]}}, "shape"),
+        ({"tracks": []}, "tracks: found none"),
+        ({"tracks": ["erri_low", "erri_low"]}, "erri_low twice"),
+        ({"tracks": "erri_lo"}, "erri_low"),
+        ({"speeds": [40.0, 40.0]}, "twice"),
+        ({"speeds": [0.0]}, "speed"),
+        ({"speeds": []}, "speeds: found none"),
+        ({"tracks": "sncf_good", "speeds": [1e5]}, "nothing of it"),
+        ({"at": [13.0]}, "off the body"),
+        ({"floor": "flat"}, "polygon"),
+        ({"weight": "Wx"}, "Wk"),
+        ({"results": ["a_wrms", "noise"]}, "'noise'"),
+        ({"results": []}, "results: found none"),
+    ],
+)
+def test_what_is_no_question(given, said):
+    asked = {"designs": {"k_2": [7e5]}, "tracks": "erri_low", "speeds": SPEEDS} | given
+    with pytest.raises(InputError, match=said):
+        evaluate_designs(paper_coach(1), **asked)
