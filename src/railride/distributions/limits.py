@@ -26,8 +26,8 @@ def note_impossible(
     impossible shows in the single designs.
 
     distributions : parameter, as ``VehicleModel.values`` takes it → its distribution, SI. Names
-    that the model does not have are noted too. faults : gathers them. where : how the place of a
-    parameter is called in messages.
+    that the model does not have, and two that mean the same, are noted too. faults : gathers them.
+    where : how the place of a parameter is called in messages.
 
     Examples
     --------
@@ -39,12 +39,16 @@ def note_impossible(
     >>> print(faults.found[0].found)
     normal, mean 750000, deviation 250000, which reaches -1.00862e+06
     """
+    taken: dict[str, str] = {}
     for name, distribution in distributions.items():
         place = where.format(name)
         try:
             symbol = model.symbol_of(name)
         except InputError as error:
             faults.add(place, "a name that is not known", str(error).partition("expected ")[2])
+            continue
+        if taken.setdefault(symbol, name) != name:
+            faults.add(place, f"{taken[symbol]} again", "each parameter once")
             continue
         low, high = (float(x) for x in distribution.ppf(np.array([NEVER, 1 - NEVER])))
         least, most = (float(x) for x in distribution.support())

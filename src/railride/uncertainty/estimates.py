@@ -31,6 +31,7 @@ from railride.scales import Scale
 
 LEVEL = 0.95  # of all intervals
 RESAMPLES = 999
+_AT_ONCE = 2 * 10**6  # resampled values in memory
 
 
 @dataclass(frozen=True)
@@ -100,8 +101,9 @@ def _moments(x: Array, seed: int) -> tuple[Estimate, Estimate]:
     def moments(x: Array, axis: int = -1) -> Array:
         return np.stack([x.mean(axis=axis), x.std(axis=axis, ddof=1)])
 
-    found = stats.bootstrap((x,), moments, n_resamples=RESAMPLES, batch=100, method="percentile",
-                            confidence_level=LEVEL, rng=seed)  # fmt: skip
+    found = stats.bootstrap((x,), moments, n_resamples=RESAMPLES, method="percentile",
+                            batch=max(1, _AT_ONCE // x.size), confidence_level=LEVEL,
+                            rng=seed)  # fmt: skip
     low, high = found.confidence_interval
     mean, deviation = (Estimate(*map(float, each)) for each in zip(moments(x), low, high,
                                                                   strict=True))  # fmt: skip
