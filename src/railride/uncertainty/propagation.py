@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -87,7 +88,6 @@ def propagate(
         summaries.append(summary(name, unit, good, percentiles, scales(name), y[0, k], seed))
         rest = y[N + 1 :, k]
         found.append(indices(own, rest[:N], rest[N:].reshape(P, N), seed) if with_indices else None)
-    failed = Counter(problem for problem in problems[1:] if problem)
     return Uncertainty(
         title=title,
         parameters=tuple(parameters),
@@ -98,7 +98,7 @@ def propagate(
         method=method,
         seed=seed,
         evaluated=len(designs),
-        failed=failed,
+        failed=dict(reasons(problems[1:])),
         remarks=tuple(
             _remarks(summaries, found if with_indices else None, problems[1 : N + 1], method, N)
         ),
@@ -131,10 +131,23 @@ def note_numbers(
         faults.add(f"{where}percentiles", repr(list(percentiles)), "at least one, each once")
 
 
+def reasons(problems: Sequence[str]) -> list[tuple[str, int]]:
+    """Why designs have no values and how many, the most frequent first.
+
+    What differs in its numbers alone is one reason, told by the first of its kind.
+
+    >>> reasons(["", "found -1 for k", "found -2 for k", "unstable"])
+    [('found -1 for k', 2), ('unstable', 1)]
+    """
+    kinds = [(re.sub(r"(?<!\w)[-+]?\d[\d.]*(e[-+]?\d+)?", "#", problem), problem)
+             for problem in problems if problem]  # fmt: skip
+    first = dict(reversed(kinds))
+    return [(first[kind], n) for kind, n in Counter(kind for kind, _ in kinds).most_common()]
+
+
 def _nothing(name: str, count: int, samples: int, problems: Sequence[str]) -> str:
     """Why there is nothing to be said of a quantity."""
-    common = Counter(problem for problem in problems if problem).most_common(SHOWN)
-    why = "; ".join(f"{number} of them: {problem}" for problem, number in common)
+    why = "; ".join(f"{n} of all: {reason}" for reason, n in reasons(problems)[:SHOWN])
     return (f"uncertainty: found {count} of {samples} designs with a value of {name}; expected at "
             f"least 2 ({why or 'they are not finite'})")  # fmt: skip
 
@@ -147,9 +160,9 @@ def _remarks(
     samples: int,
 ) -> Iterator[str]:
     """What is to be known of the sample."""
-    if failed := Counter(problem for problem in problems if problem):
-        count = failed.total()
-        listed = [f"{number}: {problem}" for problem, number in failed.most_common(SHOWN)]
+    if failed := reasons(problems):
+        count = sum(number for _, number in failed)
+        listed = [f"{number}: {reason}" for reason, number in failed[:SHOWN]]
         if len(failed) > SHOWN:
             listed.append("and others")
         yield (f"{count} of {samples} designs ({100 * count / samples:.3g} %) have no values and "
