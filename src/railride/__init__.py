@@ -49,7 +49,7 @@ _WHERE = {
     "distributions": ("Distribution", "sample"),
     "changed_vehicle": ("vehicle_with",),
     "studies": ("Study", "read_study", "shipped_studies"),
-    "uncertainty": ("Uncertainty",),
+    "uncertainty": ("Uncertainty", "study_uncertainty", "uncertainty"),
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_comfort",
               "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",

@@ -15,6 +15,7 @@ from railride.cli.map import comfort_map
 from railride.cli.modes import modes
 from railride.cli.ride import ride
 from railride.cli.track import track
+from railride.cli.uncertainty import uncertainty
 
 app = typer.Typer(
     name="railride",
@@ -34,6 +35,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "modes": modes,
     "ride": ride,
     "track": track,
+    "uncertainty": uncertainty,
 }
 for name, command in COMMANDS.items():
     app.command(name)(command)

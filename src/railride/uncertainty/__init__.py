@@ -1,13 +1,16 @@
 """What parameters that are not known exactly make of the comfort of a ride.
 
 estimates (mean, percentiles, classes, with their intervals), indices (Sobol's: where the scatter is
-from) → result → propagation (through any function).
+from) → result → propagation (through any function) → ride (through the vehicle) → study (as a study
+file asks for it).
 """
 
 from railride.uncertainty.estimates import Estimate, Summary, summary
 from railride.uncertainty.indices import Indices
 from railride.uncertainty.propagation import propagate
 from railride.uncertainty.result import Uncertain, Uncertainty
+from railride.uncertainty.ride import uncertainty
+from railride.uncertainty.study import UncertaintySettings, read_uncertainty, study_uncertainty
 
 __all__ = [
     "Estimate",
@@ -15,6 +18,10 @@ __all__ = [
     "Summary",
     "Uncertain",
     "Uncertainty",
+    "UncertaintySettings",
     "propagate",
+    "read_uncertainty",
+    "study_uncertainty",
     "summary",
+    "uncertainty",
 ]
