@@ -83,6 +83,23 @@ def test_what_a_vehicle_cannot_have_is_refused_beforehand():
     assert "c_3: found a name that is not known" in str(error.value)
 
 
+def test_designs_that_only_several_parameters_make_impossible_are_counted():
+    """Mass and pitch inertia that no graded body has: each value alone is one that it can have."""
+    coach = derive_vehicle("manchester", 4, bending_frequency=8.0)
+    scatter = {"m_c": Distribution("uniform", low=24e3, high=32e3),
+               "I_c": Distribution("uniform", low=1.97e6, high=2.75e6)}  # fmt: skip
+    found = uncertainty(coach, scatter, "erri_low", SPEED, samples=256)
+    lost = np.isnan(found.values[:, 0])
+    ratio = found.designs[:, 1] / found.designs[:, 0]
+    assert ratio[lost].min() > ratio[~lost].max()
+    assert found.summaries[0].count == 256 - lost.sum() < 256
+    (reason,) = found.failed
+    assert "a graded mass per length falls to" in reason
+    assert found.failed[reason] > lost.sum()
+    assert any(f"{lost.sum()} of 256 designs" in said and reason[:40] in said
+               for said in found.remarks)  # fmt: skip
+
+
 STUDY = """
 vehicle = "cati2024"
 [body]
