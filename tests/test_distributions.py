@@ -223,10 +223,12 @@ def test_values_that_a_model_cannot_have_are_found_beforehand():
             "c_2": stats.uniform(-10.0, 60e3),
             "bending_damping": Distribution("normal", mean=0.01, deviation=0.01),
             "secondary_stifness": EXAMPLES[0],
-            "I_c": Distribution("uniform", low=1.5e6, high=9e6), "k_2": EXAMPLES[0]}  # fmt: skip
+            "I_c": Distribution("uniform", low=1.5e6, high=9e6), "k_2": EXAMPLES[0],
+            "c_1": 30e3}  # fmt: skip
     note_impossible(coach, wide, faults)
     said = [str(fault) for fault in faults.found]
-    assert len(said) == 6
+    assert len(said) == 7
+    assert "c_1: found 30000.0; expected a Distribution" in said[6]
     assert "secondary_stiffness: found normal, mean 750000" in said[0]
     assert "finite numbers above 0 (cut it: from = …)" in said[0]
     assert "c_2: found a distribution, which reaches -10" in said[1]

@@ -40,10 +40,12 @@ def uncertainty(
 
     Example:  railride uncertainty uncertainty --plot scatter.png
 
-    JSON: title, method, seed, evaluated, failed (reason, designs); parameters: name, symbol, unit,
-    meaning, distribution, nominal; quantities: name, unit, designs, nominal, mean,
-    standard_deviation, percentiles (percent), classes (scale, class), indices (parameter; first and
-    total). Each estimate is a value with low and high, the ends of its interval at 95 %.
+    JSON: title, method, seed, evaluated, failed (reason, designs), remarks;
+    parameters: name, symbol, unit, meaning, distribution, nominal;
+    quantities: name, unit, designs, nominal, mean, standard_deviation,
+    percentiles (percent), classes (scale, class), and indices (parameter;
+    first and total order). Each estimate is a value with low and high, the
+    ends of its interval at 95 %.
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)

@@ -50,6 +50,10 @@ def note_impossible(
         if taken.setdefault(symbol, name) != name:
             faults.add(place, f"{taken[symbol]} again", "each parameter once")
             continue
+        if not (hasattr(distribution, "ppf") and hasattr(distribution, "support")):
+            faults.add(place, repr(distribution), "a Distribution, or a frozen one of scipy.stats",
+                       "a value that is known goes into the model")  # fmt: skip
+            continue
         low, high = (float(x) for x in distribution.ppf(np.array([NEVER, 1 - NEVER])))
         least, most = (float(x) for x in distribution.support())
         kind = str(distribution) if hasattr(distribution, "kind") else "a distribution"

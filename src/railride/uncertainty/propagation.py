@@ -12,6 +12,7 @@ import numpy as np
 from railride.distributions import Quantiles, refuse_sampling, sample
 from railride.errors import Faults, InputError
 from railride.numeric import Array
+from railride.quantities import several
 from railride.scales import Scale
 from railride.toml_tables import finite_number
 from railride.uncertainty.estimates import Summary, summary
@@ -70,6 +71,7 @@ def propagate(
     >>> [round(one.value, 1) for one in found.indices[0].total]
     [0.1, 0.9]
     """
+    percentiles = several(percentiles, "percentiles", "per cent")
     _refuse(len(parameters), samples, method, seed, percentiles)
     P, N = len(parameters), int(samples)
     points = sample([*distributions] * (1 + with_indices), 0, N, method, seed, N)
