@@ -285,23 +285,25 @@ class ModalBody(BodyModel):
     ) -> dict[str, Array]:
         """Those of the shapes where something is attached, where the shapes' slopes are known."""
         found = {}
+        still = np.zeros_like(next(iter(slopes.values())))
+        known: dict[tuple[Place, Place], tuple[Array, ...]] = {}
         for symbol in wanted:
             if not isinstance(symbol, Shape):
                 continue
-            x, weights, phi = self._sampled(symbol.span, values)
-            (rear, front), ends = symbol.span, [place.value(values) for place in symbol.span]
-            u = (x - ends[0]) / (ends[1] - ends[0]) if rear != front else np.zeros(1)
-            dx = np.multiply.outer(rear.slope(slopes), 1 - u)
-            dx = dx + np.multiply.outer(front.slope(slopes), u)
-            dphi = self.shape_slopes_at(x, dx, values, slopes)
-            if dphi is None:
-                return {}
+            if symbol.span not in known:
+                x, weights, phi = self._sampled(symbol.span, values)
+                dx = _moves(symbol.span, x, values, slopes)
+                dphi = self.shape_slopes_at(x, dx, values, slopes)
+                if dphi is None:
+                    return {}
+                known[symbol.span] = x, dx, weights, phi, dphi
+            x, dx, weights, phi, dphi = known[symbol.span]
             factors = [(x, dx)] * symbol.power + [(phi[i - 1], dphi[i - 1]) for i in symbol.modes]
             total = np.zeros_like(x)
             for k, (_, change) in enumerate(factors):
                 others = [factor for j, (factor, _) in enumerate(factors) if j != k]
                 total = total + change * np.prod(others, axis=0)
-            found[symbol.name] = np.asarray(total @ weights)
+            found[symbol.name] = still + total @ weights
         return found
 
     def _sampled(
@@ -328,3 +330,13 @@ def _count(n: int) -> str:
 def along(slopes: Array, dx: Array) -> Array:
     """φ_i' dx of slopes (n, q) and moves (..., q): (n, ..., q)."""
     return slopes.reshape(len(slopes), *[1] * (dx.ndim - 1), -1) * dx
+
+
+def _moves(
+    span: tuple[Place, Place], x: Array, values: Mapping[str, Array], slopes: Mapping[str, Array]
+) -> Array:
+    """How points x (q,) of a span move with its ends: (P, q), or (q,) where nothing moves."""
+    (rear, front), (start, end) = span, (place.value(values) for place in span)
+    u = (x - start) / (end - start) if rear != front else np.zeros(1)
+    found = np.multiply.outer(rear.slope(slopes), 1 - u)
+    return np.asarray(found + np.multiply.outer(front.slope(slopes), u))

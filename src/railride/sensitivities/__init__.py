@@ -2,10 +2,11 @@
 
 chain (how every symbol moves with the parameters) → derivatives (of the matrices) → squares (mean
 squares and their gradients by the adjoint), roots (natural frequencies, damping ratios), statics
-(static deflections).
+(static deflections) → effects (of changes, found anew) → result (all of it, as tables).
 """
 
 from railride.sensitivities.derivatives import Derivatives, Rows, Tangent
+from railride.sensitivities.result import Sensitivities, sensitivity
 from railride.sensitivities.roots import Roots, roots_with_gradient
 from railride.sensitivities.squares import mean_squares_with_gradient
 from railride.sensitivities.statics import static_deflections_with_gradient
@@ -14,8 +15,10 @@ __all__ = [
     "Derivatives",
     "Roots",
     "Rows",
+    "Sensitivities",
     "Tangent",
     "mean_squares_with_gradient",
     "roots_with_gradient",
+    "sensitivity",
     "static_deflections_with_gradient",
 ]

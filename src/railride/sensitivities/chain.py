@@ -61,20 +61,30 @@ class Chain:
         values : of all symbols, numbers. changes : what was given in place of the model's.
         """
         count = len(self.parameters)
-        still = np.zeros(count)
-        held = {*self.model.overrides, *changes}
-        found = {p.symbol.name: still for p in self.model.parameters}
-        found |= dict.fromkeys(held, still)
+        given = {p.symbol.name for p in self.model.parameters} | {*self.model.overrides, *changes}
+        found = dict.fromkeys(given, np.zeros(count))
         found |= dict(zip(self.parameters, np.eye(count), strict=True))
         gradients = self._gradients(values)
         self._define(found, gradients)
         defined = {symbol.name for symbol in self._definitions}
-        left = [s for s in symbols if s.name not in found and s.name not in defined]
-        found |= self.model.body.dependent_slopes(values, found, left)
-        left = [s for s in left if s.name not in found]
-        found |= self._differences(values, changes, left)
+        added, by_differences = self.added(
+            values, found, changes, [s for s in symbols if s.name not in defined]
+        )
+        found |= added
         self._define(found, gradients)
-        return found, tuple(s.name for s in left)
+        return found, by_differences
+
+    def added(
+        self, values: Mapping[str, Array], found: Mapping[str, Array],
+        changes: Mapping[str, ArrayLike], symbols: Iterable[sp.Symbol],
+    ) -> tuple[dict[str, Array], tuple[str, ...]]:  # fmt: skip
+        """ds/dp of symbols that the body alone knows and that are not among those ``found``."""
+        left = [s for s in symbols if s.name not in found]
+        if not left:
+            return {}, ()
+        known = self.model.body.dependent_slopes(values, found, left)
+        left = [s for s in left if s.name not in known]
+        return {**known, **self._differences(values, changes, left)}, tuple(s.name for s in left)
 
     def _define(self, found: dict[str, Array], gradients: Mapping[str, Array]) -> None:
         """Put in the definitions of which all is known."""

@@ -22,15 +22,21 @@ from railride.numeric import Array, Matrices, MatrixDerivative, MatrixFunction
 from railride.sensitivities.chain import Chain
 from railride.vehicle import Output, VehicleModel
 
+_NUDGE = 1e-6  # of a value, or of 1 where that is 0: to see whether it can be changed at all
+
 MATRICES = ("M", "C", "K", "K_w", "C_w")
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Rows of outputs (``VehicleModel.output_rows``) and their derivatives, (P, ...)."""
+    """Rows of outputs (``VehicleModel.output_rows``) and their derivatives, (P, ...).
+
+    by_differences : as of a :class:`Tangent`, of what only these rows hold.
+    """
 
     rows: Mapping[str, Array]
     slopes: Mapping[str, Array]
+    by_differences: tuple[str, ...] = ()
 
 
 class Derivatives:
@@ -40,12 +46,14 @@ class Derivatives:
     ----------
     model : the vehicle.
     parameters : symbols or keys of parameter files, as ``VehicleModel.values`` takes them; default
-        every independent one that enters the matrices or the wheelsets' places. One that follows
-        from others (``k_theta``) is held by being among them.
+        every independent one that can be changed and enters the matrices or the wheelsets' places.
+        One that follows from others (``k_theta``) is held by being among them.
+
+    ``left_out`` holds those that enter but cannot be changed, by name, and why.
 
     Raises
     ------
-    InputError : a name that the model does not have; one that is there twice.
+    InputError : a name that the model does not have; one that is there twice, or cannot change.
 
     Examples
     --------
@@ -62,6 +70,7 @@ class Derivatives:
         places = {"places": sp.Matrix([model.running_gear.wheelset_places])}
         self._places, self._moved = MatrixFunction(places), MatrixDerivative(places)
         self._symbols = {*self._matrices.symbols, *self._moved.symbols}
+        self.left_out: dict[str, str] = {}
         self.parameters = self._entering() if parameters is None else self._named(parameters)
         self._chain = Chain(model, self.parameters)
         self._rows: dict[tuple[Output, ...], tuple[MatrixFunction, MatrixDerivative]] = {}
@@ -97,11 +106,9 @@ class Derivatives:
             self._rows[chosen] = MatrixFunction(symbolic), MatrixDerivative(symbolic)
         rows, derivative = self._rows[chosen]
         left = [s for s in rows.symbols if s.name not in values]
-        if left:
-            values = {**values, **self.model.body.dependent_values(values, left)}
-        if any(s.name not in slopes for s in derivative.symbols):
-            slopes, _ = self._chain.slopes(values, changes, derivative.symbols)
-        return Rows(rows(values), derivative(values, slopes))
+        values = {**values, **self.model.body.dependent_values(values, left)}
+        added, by_differences = self._chain.added(values, slopes, changes, derivative.symbols)
+        return Rows(rows(values), derivative(values, {**slopes, **added}), by_differences)
 
     def _entering(self) -> tuple[str, ...]:
         """The independent parameters on which matrices or places depend."""
@@ -114,10 +121,13 @@ class Derivatives:
         own = {p.symbol for p in body.parameters}
         independent = {p.symbol for p in self.model.parameters}
         follows = bool(reached - independent - set(definitions))
-        return tuple(
+        found = [
             p.symbol.name for p in self.model.parameters
             if p.symbol in reached or (follows and p.symbol in own)
-        )  # fmt: skip
+        ]  # fmt: skip
+        why = {name: _why_fixed(self.model, name) for name in found}
+        self.left_out = {name: str(error) for name, error in why.items() if error is not None}
+        return tuple(name for name in found if name not in self.left_out)
 
     def _named(self, parameters: Sequence[str]) -> tuple[str, ...]:
         found = [self.model.symbol_of(name) for name in parameters]
@@ -126,7 +136,24 @@ class Derivatives:
             raise InputError(f"parameters: found {', '.join(twice)} twice; expected each once")
         if not found:
             raise InputError("parameters: found none; expected at least one")
+        for name in found:
+            fixed = _why_fixed(self.model, name)
+            if fixed is not None:
+                raise fixed
         return tuple(found)
+
+
+def _why_fixed(model: VehicleModel, name: str) -> InputError | None:
+    """Why a parameter can be moved to neither side, if it is so."""
+    value, why = float(model.values()[name]), None
+    for sign in (1, -1):
+        try:
+            model.matrices(**{name: value + sign * _NUDGE * (abs(value) or 1.0)})
+        except InputError as error:
+            why = error
+        else:
+            return None
+    return why
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,6 +210,7 @@ class Tangent:
         """
         model = self.derivatives.model
         found = self.rows([model.floor(float(x), floor, derivative=0) for x in at])
-        return Rows(*(
+        rows, slopes = (
             {**of, "a": of["d"], "d": np.zeros_like(of["d"])} for of in (found.rows, found.slopes)
-        ))  # fmt: skip
+        )
+        return Rows(rows, slopes, found.by_differences)

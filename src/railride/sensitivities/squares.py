@@ -140,24 +140,38 @@ def _gathered(p: Process, outputs: Rows, refined: int) -> _Gathered:
 
 def _integrals(p: Process, outputs: Rows, f: Array, df: Array) -> tuple[_Gathered, Array]:
     """The integrals over some points f with weights df; and S = |W|² S_w |y|² df, (..., F)."""
-    s, form = 2j * np.pi * f, p.form
+    s, form = np.asarray(2j * np.pi * f, dtype=complex), p.form
     w = np.exp(-p.delays[:, np.newaxis] * s)
-    q = form.left @ form.states(s, p.into @ np.concatenate([w, s * w]))
-    motions = np.concatenate([q, s * q, s**2 * q, w, s * w, s**2 * w, s**3 * w])
-    n, wheelsets = len(q), len(w)
-    every = np.concatenate([outputs.rows[name] for name in ROWS], axis=1)
-    y = every @ motions[: every.shape[1]]
-    count = len(y)
-    out = np.zeros((count, len(form.T), 1)) + sum(of[..., np.newaxis] * s**k for k, of in p.rows)
-    x = np.ascontiguousarray(np.moveaxis(out, 0, 1)).reshape(-1, count * f.size)
-    lam = form.right.T @ form.adjoint(np.tile(s, count), x)
-    lam = np.moveaxis(lam.reshape(n, count, f.size), 0, 1)  # (outputs, n, F)
+    motions = _motions(form.left @ form.states(s, p.into @ np.concatenate([w, s * w])), w, s)
+    Y = np.concatenate([outputs.rows[name] for name in ROWS], axis=1)
+    y = Y @ motions[: Y.shape[1]]
+    lam = _adjoint(p, len(y), s)
     power = np.stack([gain.power(f) for gain in p.gains]) * (p.elevation_density(f) * df)
     S = power[:, np.newaxis] * (y.real**2 + y.imag**2)
-    c = 2 * power[:, np.newaxis] * y.conj()
-    real = motions.conj().view(float)  # Re Σ a b = a · b*, real and imaginary parts abreast
-    with_lam = (c[:, :, np.newaxis] * lam).view(float) @ real[: len(real) - wheelsets].T
-    return _Gathered(S.sum(axis=-1), c.view(float) @ real.T, with_lam), S
+    c_conj = 2 * power[:, np.newaxis] * y
+    real = motions.view(float).T  # Re Σ a b = a* · b, real and imaginary parts abreast
+    with_lam = (c_conj[:, :, np.newaxis] * lam.conj()).view(float) @ real[:, : -len(w)]
+    return _Gathered(S.sum(axis=-1), c_conj.view(float) @ real, with_lam), S
+
+
+def _motions(q: Complex, w: Complex, s: Complex) -> Complex:
+    """q, sq, s²q, w, sw, s²w and s³w, one below the other."""
+    n, wheelsets = len(q), len(w)
+    found = np.empty((3 * n + 4 * wheelsets, s.size), dtype=complex)
+    found[:n], found[3 * n : 3 * n + wheelsets] = q, w
+    for start, rows, powers in ((0, n, 3), (3 * n, wheelsets, 4)):
+        for end in range(start + rows, start + powers * rows, rows):
+            np.multiply(s, found[end - rows : end], out=found[end : end + rows])
+    return found
+
+
+def _adjoint(p: Process, outputs: int, s: Complex) -> Complex:
+    """λ of every output: (outputs, n, F)."""
+    parts = [rows[..., np.newaxis] * s**power for power, rows in p.rows]
+    right = sum(parts[1:], start=parts[0])
+    right = np.ascontiguousarray(np.moveaxis(right, 0, 1)).reshape(-1, outputs * s.size)
+    lam = p.form.right.T @ p.form.adjoint(np.tile(s, outputs), right)
+    return np.moveaxis(lam.reshape(-1, outputs, s.size), 0, 1)
 
 
 def _contracted(g: _Gathered, at: Tangent, outputs: Rows, speed: float) -> Array:
