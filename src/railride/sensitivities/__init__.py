@@ -2,7 +2,7 @@
 
 chain (how every symbol moves with the parameters) → derivatives (of the matrices) → squares (mean
 squares and their gradients by the adjoint), roots (natural frequencies, damping ratios), statics
-(static deflections) → effects (of changes, found anew) → result (all of it, as tables).
+(static deflections) → result (all of it, beside changed designs found anew, as tables).
 """
 
 from railride.sensitivities.derivatives import Derivatives, Rows, Tangent

@@ -11,18 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.bodies import Parameter
+from railride.designs import evaluate_designs
 from railride.errors import Faults, InputError
 from railride.numeric import Array
 from railride.quantities import check_number, several
 from railride.sensitivities.derivatives import Derivatives, Tangent
-from railride.sensitivities.effects import Ride, changed_rms
 from railride.sensitivities.roots import Roots, roots_with_gradient
 from railride.sensitivities.squares import mean_squares_with_gradient
 from railride.sensitivities.statics import static_deflections_with_gradient
 from railride.spectra import Spectrum
 from railride.stochastic.gains import weighted
 from railride.stochastic.measured import track_spectrum
-from railride.stochastic.process import BAND_HZ
 from railride.track import Track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
@@ -151,7 +150,6 @@ def sensitivity(
     floor: str = "smooth",
     weight: str | Weighting = "Wk",
     change: float = CHANGE,
-    band: tuple[float, float] = BAND_HZ,
     **changes: ArrayLike,
 ) -> Sensitivities:
     """Exact sensitivities of a stationary ride, of the modes and of the static deflections.
@@ -163,7 +161,7 @@ def sensitivity(
     parameters : symbols or keys of parameter files; default every independent one that can be
         changed and enters. A body that was calibrated to its bending frequency keeps it while
         others change, unless the joints' stiffness is among them (``Sensitivities.held`` says).
-    weight : a weighting or its name. band : from and to, Hz; its ends do not move.
+    weight : a weighting or its name.
     change : of each parameter's value, above 0 and below 1, for which the ride is found anew.
     changes : parameter values in place of the vehicle's.
 
@@ -189,7 +187,7 @@ def sensitivity(
     spectrum, said = track_spectrum(track, speeds)
     derivatives = Derivatives(model, parameters)
     here = derivatives.at(**changes)
-    ride = Ride(speeds, spectrum, at, floor, weighting(weight), band)
+    ride = _Ride(speeds, spectrum, at, floor, weighting(weight))
     rms, gradient, uncertain = _gradient(here, ride)
     changed, problems = _changed(here, ride, change)
     known = {p.symbol.name: p for p in model.parameters}
@@ -216,7 +214,18 @@ def sensitivity(
     )
 
 
-def _gradient(here: Tangent, ride: Ride) -> tuple[Array, Array, list[str]]:
+@dataclass(frozen=True)
+class _Ride:
+    """What the weighted r.m.s. is of: speeds, m/s, a track, points of the floor, a weighting."""
+
+    speeds: Sequence[float]
+    spectrum: Spectrum
+    at: Sequence[float]
+    floor: str
+    weight: Weighting
+
+
+def _gradient(here: Tangent, ride: _Ride) -> tuple[Array, Array, list[str]]:
     """a_wrms (S, X), its gradient (S, X, P), and where that is uncertain.
 
     By how much the integrals change as every panel is halved.
@@ -225,8 +234,8 @@ def _gradient(here: Tangent, ride: Ride) -> tuple[Array, Array, list[str]]:
     gains = (weighted(ride.weight),)
     found = []
     for refined in (1, 2):
-        J, dJ = mean_squares_with_gradient(here, rows, ride.speeds, ride.spectrum, gains, ride.band,
-                                           refined)  # fmt: skip
+        J, dJ = mean_squares_with_gradient(here, rows, ride.speeds, ride.spectrum, gains,
+                                           refined=refined)  # fmt: skip
         rms = np.sqrt(J[:, 0])
         found.append(np.divide(dJ[:, 0], 2 * rms[..., np.newaxis], where=rms[..., np.newaxis] > 0,
                                out=np.zeros_like(dJ[:, 0])))  # fmt: skip
@@ -267,18 +276,23 @@ def _at_hinges(model: VehicleModel) -> list[str]:
     ]  # fmt: skip
 
 
-def _changed(here: Tangent, ride: Ride, change: float) -> tuple[Array, list[str]]:
+def _changed(here: Tangent, ride: _Ride, change: float) -> tuple[Array, list[str]]:
     """a_wrms with less and with more of each parameter, (S, X, P, 2), and remarks."""
     base = {name: float(np.asarray(value)) for name, value in here.changes.items()}
     base |= {name: float(here.values[name]) for name in here.parameters}
     moved = [(name, sign) for name in here.parameters for sign in (-1, 1)]
-    designs = [{**base, name: base[name] * (1 + sign * change)} for name, sign in moved]
-    found, problems = changed_rms(here.derivatives.model, ride, designs)
+    designs = {
+        name: [value * (1 + sign * change * (one == name)) for one, sign in moved]
+        for name, value in base.items()
+    }
+    found = evaluate_designs(here.derivatives.model, designs, ride.spectrum, ride.speeds, ride.at,
+                             floor=ride.floor, weight=ride.weight)  # fmt: skip
     said = [f"{name} {100 * sign * change:+g} %: no value: {why}"
-            for (name, sign), why in zip(moved, problems, strict=True) if why]  # fmt: skip
+            for (name, sign), why in zip(moved, found.problems, strict=True) if why]  # fmt: skip
     said += [f"{name} is 0, and {100 * change:g} % of it nothing: its gradient alone tells"
              for name in here.parameters if base[name] == 0]  # fmt: skip
-    return np.moveaxis(found.reshape(-1, 2, *found.shape[1:]), (0, 1), (2, 3)), said
+    shape = (len(here.parameters), 2, len(ride.speeds), len(ride.at))
+    return np.moveaxis(np.asarray(found.a_wrms, dtype=float).reshape(shape), (0, 1), (2, 3)), said
 
 
 def _parameter(here: Tangent, name: str, known: Mapping[str, Parameter]) -> Parameter:
