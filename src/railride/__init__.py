@@ -50,7 +50,6 @@ _WHERE = {
     "changed_vehicle": ("vehicle_with",),
     "studies": ("Study", "read_study", "shipped_studies"),
     "uncertainty": ("Uncertainty", "study_uncertainty", "uncertainty"),
-    "uncertainty": ("Uncertainty",),
     "sensitivities": ("Derivatives", "Sensitivities", "mean_squares_with_gradient",
                       "roots_with_gradient", "sensitivity",
                       "static_deflections_with_gradient"),
