@@ -7,13 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from vehicles import paper_coach, random_model
+from vehicles import paper_coach, random_model, random_vehicle
 
 from railride import designs as package
 from railride.designs import evaluate_designs
 from railride.errors import InputError
+from railride.frequency import track_response
+from railride.modal import modes
 from railride.parameters import load_vehicle
-from railride.stochastic import stochastic_ride
+from railride.spectra import spectrum
+from railride.stochastic import output_statistics, stochastic_ride
 from railride.vehicle import derive_vehicle
 
 KMH = 1 / 3.6
@@ -89,6 +92,147 @@ def test_batches_join_without_a_seam(monkeypatch):
     parts = evaluate_designs(model, designs, "erri_low", SPEEDS, progress=done.append)
     np.testing.assert_allclose(parts.a_wrms, whole.a_wrms, rtol=1e-13)
     np.testing.assert_allclose(done, [4 / 11, 8 / 11, 1.0])
+
+
+# Travel, wheel loads, modes, statics
+
+
+def weighed(vehicle, **mounts):
+    """With wheelsets of a known mass, and the dampers' mounts if they are given."""
+    bogies = tuple(replace(bogie, wheelset_mass=1250.0, **mounts) for bogie in vehicle.bogies)
+    return replace(vehicle, bogies=bogies)
+
+
+COACH = weighed(load_vehicle("cati2024"))
+KINDS = {
+    "rigid": (derive_vehicle(COACH, segments=1), SUSPENSION),
+    "segments": (derive_vehicle(COACH, segments=4, bending_damping=0.01), SUSPENSION),
+    "beam": (derive_vehicle(COACH, body="beam", modes=3, bending_damping=0.01), SUSPENSION),
+    "fe": (derive_vehicle(COACH, body="fe", modes=3, bending_damping=0.01), SUSPENSION),
+    "mounts": (derive_vehicle(weighed(COACH, primary_damper_stiffness=4e6,
+                                      secondary_damper_stiffness=12e6), segments=2),
+               {**SUSPENSION, "k_d1": 4e6, "k_d2": 12e6}),
+    "unsymmetric": (derive_vehicle(weighed(random_vehicle(3)), segments=4),
+                    {"k_2_b1": 5e5, "c_1_b2": 2e4, "f_bending": 9.0}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_travel_and_wheel_loads_are_those_of_the_outputs(name):
+    model, centres = KINDS[name]
+    designs = drawn(3, 2, **centres)
+    found = evaluate_designs(model, designs, ["erri_low", "sncf_good"], SPEEDS,
+                             results=["travel", "wheel_loads"])  # fmt: skip
+    assert found.a_wrms is None
+    asked = [*found.suspensions, *found.wheel_loads]
+    assert len(found.wheel_loads) == len(model.vehicle.wheelset_positions)
+    rms = np.concatenate([found.travel_rms, found.load_rms], axis=-1)
+    peak = np.concatenate([found.travel_peak, found.load_peak], axis=-1)
+    for d in range(2):
+        own = {key: values[d] for key, values in designs.items()}
+        for t, track in enumerate(found.tracks):
+            for v, speed in enumerate(SPEEDS):
+                alone = output_statistics(model, speed, track, asked, **own)
+                np.testing.assert_allclose(rms[d, t, v], alone["rms"], rtol=1e-8)
+                np.testing.assert_allclose(peak[d, t, v], alone["expected peak"], rtol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["segments", "mounts", "unsymmetric"])
+def test_travel_and_wheel_loads_by_many_frequencies(name):
+    """The trapezoidal rule on the equations of motion as they stand."""
+    model, centres = KINDS[name]
+    designs, V, k = drawn(4, 2, **centres), 200 * KMH, 1
+    found = evaluate_designs(model, designs, "erri_low", V, results=["travel", "wheel_loads"])
+    own = {key: values[k] for key, values in designs.items()}
+    f = np.concatenate([np.linspace(0.05, 30.0, 150_001), np.linspace(30.0, 80.0, 20_001)[1:]])
+    S = 2 * np.pi / V * spectrum("erri_low").density(2 * np.pi * f / V)
+    names = [*found.suspensions, *found.wheel_loads]
+    H = track_response(model, [model.outputs[each] for each in names], V, f, **own)
+    low_pass = 1 / (1 + (f / 20) ** 8)
+    loads = np.array([each.startswith("wheel_load") for each in names])[:, np.newaxis]
+    S_y = np.abs(H) ** 2 * S * np.where(loads, low_pass, 1.0)
+    rms = np.sqrt(np.trapezoid(S_y, f))
+    crossings = np.sqrt(np.trapezoid(f**2 * S_y, f)) / rms
+    root = np.sqrt(2 * np.log(crossings * 1000 / V))
+    both = np.concatenate([found.travel_rms, found.load_rms], axis=-1)[k, 0, 0]
+    np.testing.assert_allclose(both, rms, rtol=1e-6)
+    peaks = np.concatenate([found.travel_peak, found.load_peak], axis=-1)[k, 0, 0]
+    np.testing.assert_allclose(peaks, rms * (root + 0.5772156649 / root), rtol=1e-6)
+
+
+def test_few_crossings_have_no_expected_peak():
+    found = evaluate_designs(paper_coach(1), {"k_2": [7e5]}, "erri_low", 400.0, results="travel")
+    assert np.isfinite(found.travel_rms).all()
+    assert np.isnan(found.travel_peak[0, 0, 0, 0])
+    assert any("fewer than 10 up-crossings" in remark for remark in found.remarks)
+
+
+def test_wheelsets_without_mass_have_no_loads():
+    found = evaluate_designs(paper_coach(1), {"k_2": [7e5]}, "erri_low", 40.0,
+                             results="wheel_loads")  # fmt: skip
+    assert found.load_rms.shape == (1, 1, 1, 0)
+    assert any("no wheel loads" in remark for remark in found.remarks)
+    assert list(found.table()) == ["k_2 [N/m]", "error", "problem"]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_modes_are_the_models_own(name):
+    model, centres = KINDS[name]
+    designs = drawn(5, 4, **centres)
+    found = evaluate_designs(model, designs, "erri_low", 40.0, results="modes")
+    for d in range(4):
+        own = modes(model, **{key: values[d] for key, values in designs.items()})
+        assert len(own) == len(found.modes)
+        order = np.argsort(found.natural_frequency[d])
+        np.testing.assert_allclose(found.natural_frequency[d][order],
+                                   [mode.frequency_hz for mode in own], rtol=1e-8)  # fmt: skip
+        np.testing.assert_allclose(np.sort(found.damping_ratio[d]),
+                                   np.sort([mode.damping_ratio for mode in own]),
+                                   rtol=1e-7, atol=1e-10)  # fmt: skip
+        assert found.least_damping_ratio[d] == found.damping_ratio[d].min()
+        for label in ("heave", "pitch"):
+            (mode,) = (mode for mode in own if mode.label == label)
+            k = found.modes.index(label)
+            assert found.natural_frequency[d, k] == pytest.approx(mode.frequency_hz, rel=1e-8)
+
+
+def test_modes_keep_their_names_where_frequencies_change_places():
+    """The bogies' heave, from below the bending mode to far above it."""
+    model = derive_vehicle("cati2024", segments=4)
+    k_1 = np.geomspace(1e6, 4e7, 12)
+    found = evaluate_designs(model, {"k_1": k_1}, "erri_low", 40.0, results="modes")
+    assert len(set(found.modes)) == len(found.modes) == 9
+    bogies = [name for name in found.modes if name.startswith("bogie heave")]
+    f = found.table()[[f"{name} natural frequency [Hz]" for name in (*bogies, "bending 1")]]
+    both_bogies = np.sqrt((2 * k_1 + 750e3) / 3000) / (2 * np.pi)  # each alone on its springs
+    for name in bogies:
+        np.testing.assert_allclose(f[f"{name} natural frequency [Hz]"], both_bogies, rtol=0.06)
+    np.testing.assert_allclose(f["bending 1 natural frequency [Hz]"], 9.6, rtol=0.06)
+
+
+def test_a_pair_that_creeps_keeps_its_name():
+    """Dampers so strong that the bogies' heave is two real eigenvalues: one goes by its name."""
+    found = evaluate_designs(paper_coach(1), {"c_1": [3e4, 2e5]}, "erri_low", 40.0, results="modes")
+    zeta = found.damping_ratio[:, [name.startswith("bogie heave") for name in found.modes]]
+    assert (zeta[0] < 0.5).all()
+    np.testing.assert_allclose(zeta[1], 1.0, rtol=1e-12)
+
+
+def test_modes_of_unstable_designs_are_told():
+    found = evaluate_designs(paper_coach(1), {"c_2": [7e4, -7e4]}, "erri_low", 40.0,
+                             results=["modes", "a_wrms"])  # fmt: skip
+    assert found.least_damping_ratio[0] > 0 > found.least_damping_ratio[1]
+    assert np.isnan(found.a_wrms[1]).all()
+
+
+def test_static_deflections_carry_the_weight():
+    """-m g/k of what stands above: half of the body on a bogie, a quarter of all on a wheelset."""
+    k_1, k_2, g = np.array([4e6, 6e6]), np.array([6e5, 9e5]), 9.80665
+    found = evaluate_designs(paper_coach(4), {"k_1": k_1, "k_2": k_2}, "erri_low", 40.0,
+                             results="static")  # fmt: skip
+    deflection = dict(zip(found.suspensions, found.static_deflection.T, strict=True))
+    np.testing.assert_allclose(deflection["secondary_2_deflection"], -17e3 * g / k_2, rtol=1e-9)
+    np.testing.assert_allclose(deflection["primary_3_deflection"], -10e3 * g / k_1, rtol=1e-9)
 
 
 # Designs that cannot be

@@ -17,15 +17,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from railride.comfort import wz_from_rms
 from railride.designs.batches import Batch, sound_batches
 from railride.designs.given import Cases, Tracks, given_cases, given_designs
+from railride.designs.rides import Ridden, Rides, suspensions, wheel_loads
+from railride.designs.shapes import KnownModes
+from railride.designs.statics import static_deflections
 from railride.designs.values import DesignValues
 from railride.numeric import Array
-from railride.stochastic.gains import PLAIN, sperling, weighted
+from railride.stochastic.extremes import missing_loads
 from railride.stochastic.process import BAND_HZ, covered_band
-from railride.stochastic.ride import STATED, floor_rows
-from railride.stochastic.squares import squares_of_many
+from railride.stochastic.ride import STATED
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting
 
@@ -57,7 +58,10 @@ def evaluate_designs(
     tracks : a spectrum or its name, a track or its file, or several of them.
     speeds : V in m/s, each > 0. at : points of the floor, m forward of the body's middle.
     floor : how it is read, "smooth" or "polygon". weight : a weighting or its name.
-    results : some of "a_wrms", "a_rms" and "wz".
+    results : some of "a_wrms", "a_rms", "wz"; "travel", r.m.s. and expected peak over a kilometre
+        of every secondary and primary deflection; "wheel_loads", the same of the dynamic loads of
+        wheelsets whose mass is known, below 20 Hz; "modes", natural frequencies and damping ratios,
+        named as the model's own modes that they are alike; "static", deflections by the weight.
     progress : called with the fraction done.
 
     Returns
@@ -90,14 +94,14 @@ def evaluate_designs(
         for speed in cases.speeds:
             covered_band(spectrum, speed, BAND_HZ)
     count = len(next(iter(given.values()))) if given else 1
-    found = _Found(cases, count)
+    found = _Found(model, cases, count)
     for start in range(0, count, TOGETHER):
         numbers = np.arange(start, min(start + TOGETHER, count))
         batches, refused = sound_batches(model, given, numbers)
         for number, problem in refused.items():
             found.problems[number] = problem
         for batch in batches:
-            found.take(model, batch)
+            found.take(batch)
         if progress is not None:
             progress((numbers[-1] + 1) / count)
     units = {name: model.meanings[model.symbol_of(name)][1] for name in given}
@@ -107,6 +111,9 @@ def evaluate_designs(
         tracks=tuple(spectrum.name for spectrum in cases.tracks),
         speeds=cases.speeds,
         positions=cases.positions,
+        suspensions=tuple(output.name for output in suspensions(model)),
+        wheel_loads=tuple(output.name for output in wheel_loads(model)),
+        modes=found.known.names if found.known else (),
         error=found.error,
         problems=found.problems,
         remarks=(*cases.remarks, *found.remarks),
@@ -117,39 +124,55 @@ def evaluate_designs(
 class _Found:
     """Values of ``count`` designs as they are found: arrays of NaN that batches fill."""
 
-    def __init__(self, cases: Cases, count: int) -> None:
-        self.cases = cases
+    def __init__(self, model: VehicleModel, cases: Cases, count: int) -> None:
+        self.model, self.cases = model, cases
         self.problems = np.full(count, "", dtype=object)
         self.error = np.full(count, np.nan)
-        shape = (count, len(cases.tracks), len(cases.speeds), len(cases.positions))
-        self.values = {name: np.full(shape, np.nan) for name in cases.results}
+        self.values: dict[str, Array] = {}
+        self.known = KnownModes(model) if "modes" in cases.results else None
+        rides = (count, len(cases.tracks), len(cases.speeds))
+        for result in cases.results:
+            for name, shape in self._shapes(result, rides).items():
+                self.values[name] = np.full(shape, np.nan)
 
-    def take(self, model: VehicleModel, batch: Batch) -> None:
+    def _shapes(self, result: str, rides: tuple[int, ...]) -> dict[str, tuple[int, ...]]:
+        """The arrays of one of the results."""
+        if result == "modes" and self.known:
+            modes = (rides[0], len(self.known.names))
+            return {"natural_frequency": modes, "damping_ratio": modes,
+                    "least_damping_ratio": rides[:1]}  # fmt: skip
+        if result == "static":
+            return {"static_deflection": (rides[0], len(suspensions(self.model)))}
+        if result == "travel":
+            every = (*rides, len(suspensions(self.model)))
+            return {"travel_rms": every, "travel_peak": every}
+        if result == "wheel_loads":
+            every = (*rides, len(wheel_loads(self.model)))
+            return {"load_rms": every, "load_peak": every}
+        return {result: (*rides, len(self.cases.positions))}
+
+    def take(self, batch: Batch) -> None:
         """Evaluate a batch."""
         self.error[batch.numbers] = 0.0
-        places = model.wheelset_places(**batch.values)
-        for track in range(len(self.cases.tracks)):
-            self._floor(model, batch, places, track)
+        places = self.model.wheelset_places(**batch.values)
+        for track, spectrum in enumerate(self.cases.tracks):
+            for ridden in Rides(self.model, self.cases, batch, places, spectrum).every():
+                for name, values in ridden.values.items():
+                    self.values[name][batch.numbers, track] = values
+                self._note(batch, ridden)
+        if self.known:
+            for name, values in self.known.values(batch.forms).items():
+                self.values[name][batch.numbers] = values
+        if "static" in self.cases.results:
+            rows = self.model.output_rows(suspensions(self.model), **batch.values)["d"]
+            self.values["static_deflection"][batch.numbers] = static_deflections(batch.m, rows)
 
-    def _floor(self, model: VehicleModel, batch: Batch, places: Array, track: int) -> None:
-        """The comfort values on one of the tracks."""
-        of = {"a_rms": PLAIN, "a_wrms": weighted(self.cases.weight), "wz": sperling()}
-        wanted = [name for name in of if name in self.values]
-        rows = floor_rows(model, self.cases.positions, self.cases.floor, batch.values)
-        squares, errors, refused = squares_of_many(
-            batch.m, rows, places, self.cases.speeds, self.cases.tracks[track],
-            [of[name] for name in wanted], forms=batch.forms,
-        )  # fmt: skip
-        for k, name in enumerate(wanted):
-            rms = np.sqrt(squares[:, :, k])
-            self.values[name][batch.numbers, track] = wz_from_rms(rms) if name == "wz" else rms
-        self._note(batch, errors / 2, refused)
-
-    def _note(self, batch: Batch, errors: Array, refused: Mapping[int, str]) -> None:
+    def _note(self, batch: Batch, ridden: Ridden) -> None:
         """The largest errors so far, and the first reason why there is no value."""
-        largest = np.where(np.isfinite(errors), errors, 0.0).reshape(len(errors), -1).max(axis=1)
+        errors = np.where(np.isfinite(ridden.errors), ridden.errors, 0.0)
+        largest = errors.reshape(len(errors), -1).max(axis=1)
         self.error[batch.numbers] = np.maximum(self.error[batch.numbers], largest)
-        for k, problem in refused.items():
+        for k, problem in ridden.refused.items():
             number = batch.numbers[k]
             self.problems[number] = self.problems[number] or problem
 
@@ -161,9 +184,21 @@ class _Found:
         if failed.size:
             said.append(f"{failed.size} of {count} designs lack values; the first of them, design "
                         f"{failed[0] + 1}: {self.problems[failed[0]]}")  # fmt: skip
+        if "wheel_loads" in self.cases.results:
+            said += missing_loads(self.model)
+        said += [f"{name.partition('_')[0]}: no peak is expected where there are fewer than 10 "
+                 "up-crossings in a kilometre" for name in ("travel_peak", "load_peak")
+                 if self._without_peak(name)]  # fmt: skip
         doubtful = int((self.error > STATED).sum())
         if doubtful:
             said.append(f"{doubtful} of {count} designs: values are uncertain by up to "
                         f"{np.nanmax(self.error):.0e} of themselves (a mode with next to no "
                         "damping?)")  # fmt: skip
         return said
+
+    def _without_peak(self, name: str) -> bool:
+        """Whether there are r.m.s. values without peaks."""
+        if name not in self.values:
+            return False
+        rms = self.values[name.replace("peak", "rms")]
+        return bool((np.isnan(self.values[name]) & np.isfinite(rms)).any())

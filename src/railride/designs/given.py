@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=Hashable)
 
-RESULTS = ("a_wrms", "a_rms", "wz")
+RESULTS = ("a_wrms", "a_rms", "wz", "travel", "wheel_loads", "modes", "static")
 Tracks = str | Path | Spectrum | Track
 
 

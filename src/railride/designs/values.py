@@ -15,7 +15,21 @@ from railride.numeric import Array
 if TYPE_CHECKING:
     import pandas as pd
 
-FLOOR = ("track", "speed", "position")
+RIDE = ("track", "speed")
+FLOOR = (*RIDE, "position")
+KINDS = (  # of values: their name, what columns say of them, their unit and axes
+    ("a_wrms", "a_wrms", "m/s^2", FLOOR),
+    ("a_rms", "a_rms", "m/s^2", FLOOR),
+    ("wz", "wz", "", FLOOR),
+    ("travel_rms", "rms", "m", (*RIDE, "suspension")),
+    ("travel_peak", "expected peak", "m", (*RIDE, "suspension")),
+    ("load_rms", "rms", "N", (*RIDE, "wheel load")),
+    ("load_peak", "expected peak", "N", (*RIDE, "wheel load")),
+    ("natural_frequency", "natural frequency", "Hz", ("mode",)),
+    ("damping_ratio", "damping ratio", "", ("mode",)),
+    ("least_damping_ratio", "least damping ratio", "", ()),
+    ("static_deflection", "static", "m", ("suspension",)),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +58,11 @@ class DesignValues:
 
     parameters : name as given → (D,), SI. units : of each of them, "" of a pure number.
     tracks, speeds (m/s), positions (m forward of the body's middle) : the cases.
-    a_wrms, a_rms : m/s², wz : (D, tracks, speeds, positions); None where not asked for. NaN where
-    there is no value. error : (D,), the largest estimated relative error of a design's values.
+    a_wrms, a_rms : m/s², wz : (D, tracks, speeds, positions); travel_rms, travel_peak : m, (D,
+    tracks, speeds, suspensions); load_rms, load_peak : N, (D, tracks, speeds, wheel_loads);
+    natural_frequency : Hz, and damping_ratio, (D, modes); least_damping_ratio : (D,);
+    static_deflection : m, positive in extension, (D, suspensions). None where not asked for, NaN
+    where there is no value. error : (D,), the largest estimated relative error of a design's own.
     problems : (D,), why a design lacks values, "" where it has them all. remarks : what to know.
     """
 
@@ -54,11 +71,22 @@ class DesignValues:
     tracks: tuple[str, ...]
     speeds: tuple[float, ...]
     positions: tuple[float, ...]
+    suspensions: tuple[str, ...]
+    wheel_loads: tuple[str, ...]
+    modes: tuple[str, ...]
     error: Array
     problems: NDArray[np.object_]
     a_wrms: Array | None = None
     a_rms: Array | None = None
     wz: Array | None = None
+    travel_rms: Array | None = None
+    travel_peak: Array | None = None
+    load_rms: Array | None = None
+    load_peak: Array | None = None
+    natural_frequency: Array | None = None
+    damping_ratio: Array | None = None
+    least_damping_ratio: Array | None = None
+    static_deflection: Array | None = None
     remarks: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -67,12 +95,11 @@ class DesignValues:
     @property
     def quantities(self) -> tuple[Quantity, ...]:
         """What there is, in the order of the table's columns."""
-        every = (
-            _quantity("a_wrms", "a_wrms", "m/s^2", FLOOR, self.a_wrms),
-            _quantity("a_rms", "a_rms", "m/s^2", FLOOR, self.a_rms),
-            _quantity("wz", "wz", "", FLOOR, self.wz),
+        return tuple(
+            Quantity(name, said, unit, axes, values)
+            for name, said, unit, axes in KINDS
+            if (values := getattr(self, name)) is not None
         )
-        return tuple(quantity for quantity in every if quantity is not None)
 
     @property
     def labels(self) -> dict[str, list[str]]:
@@ -81,6 +108,9 @@ class DesignValues:
             "track": list(self.tracks),
             "speed": [f"{3.6 * speed:.9g} km/h" for speed in self.speeds],
             "position": [f"{x:.9g} m" for x in self.positions],
+            "suspension": list(self.suspensions),
+            "wheel load": list(self.wheel_loads),
+            "mode": list(self.modes),
         }
 
     def table(self) -> pd.DataFrame:
@@ -104,12 +134,6 @@ class DesignValues:
             each = quantity.values.reshape(len(self), -1).T
             for case, values in zip(cases, each, strict=True):
                 yield quantity.column(dict(zip(quantity.axes, case, strict=True))), values
-
-
-def _quantity(
-    name: str, said: str, unit: str, axes: tuple[str, ...], values: Array | None
-) -> Quantity | None:
-    return None if values is None else Quantity(name, said, unit, axes, values)
 
 
 def headed(name: str, unit: str) -> str:

@@ -40,6 +40,7 @@ from railride.vehicle import Output, VehicleModel
 if TYPE_CHECKING:
     import pandas as pd
 
+DISTANCE = 1000.0  # m, over which a peak is expected
 EULER = 0.5772156649015329
 LOW_PASS_HZ, LOW_PASS_ORDER = 20.0, 4
 FEW_CROSSINGS = 10.0
@@ -62,7 +63,7 @@ class Extreme:
     error: float
 
 
-def expected_peak(rms: ArrayLike, crossings: ArrayLike, duration: float) -> Array:
+def expected_peak(rms: ArrayLike, crossings: ArrayLike, duration: ArrayLike) -> Array:
     """E[max y] over a duration T, s: σ (√(2 ln νT) + 0.5772/√(2 ln νT)); NaN where νT < 10.
 
     rms : σ. crossings : ν, zero up-crossings a second.
@@ -70,7 +71,7 @@ def expected_peak(rms: ArrayLike, crossings: ArrayLike, duration: float) -> Arra
     >>> round(float(expected_peak(1.0, 10.0, 100.0)), 3)
     3.872
     """
-    times = np.asarray(crossings, dtype=float) * duration
+    times = np.asarray(crossings, dtype=float) * np.asarray(duration, dtype=float)
     enough = times >= FEW_CROSSINGS
     root = np.sqrt(2 * np.log(np.where(enough, times, np.e)))
     return np.asarray(np.where(enough, np.asarray(rms) * (root + EULER / root), np.nan))
@@ -219,7 +220,7 @@ def _duration(speed: float, distance: float | None, duration: float | None) -> f
     if distance is not None and duration is not None:
         raise InputError("peak: found both a distance and a duration; expected one of them")
     faults = Faults("peak")
-    distance = 1000.0 if distance is None else distance
+    distance = DISTANCE if distance is None else distance
     check_number(faults, "distance", distance, "> 0", "m")
     if duration is not None:
         check_number(faults, "duration", duration, "> 0", "s")
