@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -277,6 +278,36 @@ def test_a_table_has_a_row_for_each_design():
     assert table.shape[1] == 2 + 2 * 8 + 2
     column = table["a_wrms fra_4 145 km/h -2.5 m [m/s^2]"]
     np.testing.assert_array_equal(column, found.a_wrms[:, 1, 0, 1])
+
+
+def test_a_data_set_names_its_axes_and_units():
+    xarray = pytest.importorskip("xarray")
+    designs = {"secondary_stiffness": [6e5, 9e5], "zeta_bending": 0.01}
+    found = evaluate_designs(paper_coach(2), designs, ["erri_low", "fra_4"], SPEEDS, [0.0, -2.5],
+                             results=["a_wrms", "travel", "modes", "static"])  # fmt: skip
+    data = found.dataset()
+    assert isinstance(data, xarray.Dataset)
+    assert data.a_wrms.dims == ("design", "track", "speed", "position")
+    assert data.a_wrms.attrs["units"] == "m/s^2"
+    one = data.a_wrms.sel(track="fra_4", speed=SPEEDS[1], position=-2.5)
+    np.testing.assert_array_equal(one, found.a_wrms[:, 1, 1, 1])
+    assert data.speed.attrs["units"] == "m/s"
+    assert data.secondary_stiffness.dims == ("design",)
+    assert data.secondary_stiffness.attrs["units"] == "N/m"
+    assert data.damping_ratio.sel(mode="heave").attrs["units"] == "1"
+    travel = data.travel_peak.sel(suspension="primary_2_deflection", track="erri_low")
+    np.testing.assert_array_equal(travel, found.travel_peak[:, 0, :, 2])
+    assert data.least_damping_ratio.dims == ("design",)
+    assert list(data.problem) == ["", ""]
+    bare = evaluate_designs(paper_coach(2), {}, "erri_low", 40.0, results="static").dataset()
+    assert set(bare.sizes) == {"design", "suspension"}
+
+
+def test_a_data_set_without_xarray(monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    found = evaluate_designs(paper_coach(1), {}, "erri_low", 40.0, results="static")
+    with pytest.raises(InputError, match=r"railride\[xarray\]"):
+        found.dataset()
 
 
 # What the caller gave

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from railride.errors import InputError
 from railride.numeric import Array
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray
 
 RIDE = ("track", "speed")
 FLOOR = (*RIDE, "position")
@@ -23,8 +25,8 @@ KINDS = (  # of values: their name, what columns say of them, their unit and axe
     ("wz", "wz", "", FLOOR),
     ("travel_rms", "rms", "m", (*RIDE, "suspension")),
     ("travel_peak", "expected peak", "m", (*RIDE, "suspension")),
-    ("load_rms", "rms", "N", (*RIDE, "wheel load")),
-    ("load_peak", "expected peak", "N", (*RIDE, "wheel load")),
+    ("load_rms", "rms", "N", (*RIDE, "wheel_load")),
+    ("load_peak", "expected peak", "N", (*RIDE, "wheel_load")),
     ("natural_frequency", "natural frequency", "Hz", ("mode",)),
     ("damping_ratio", "damping ratio", "", ("mode",)),
     ("least_damping_ratio", "least damping ratio", "", ()),
@@ -109,7 +111,7 @@ class DesignValues:
             "speed": [f"{3.6 * speed:.9g} km/h" for speed in self.speeds],
             "position": [f"{x:.9g} m" for x in self.positions],
             "suspension": list(self.suspensions),
-            "wheel load": list(self.wheel_loads),
+            "wheel_load": list(self.wheel_loads),
             "mode": list(self.modes),
         }
 
@@ -127,6 +129,39 @@ class DesignValues:
         table.attrs["remarks"] = list(self.remarks)
         return table
 
+    def dataset(self) -> xarray.Dataset:
+        """Arrays with named axes, of the names above; ``units`` among the attributes of each.
+
+        Parameters are coordinates along "design", pure numbers in units of "1".
+
+        Raises
+        ------
+        InputError : xarray is not installed.
+        """
+        try:
+            import xarray
+        except ImportError:
+            raise InputError(
+                "dataset: found xarray missing; expected it to be installed (pip"
+                " install 'railride[xarray]', or take the table)"
+            ) from None
+        found: dict[str, Any] = {
+            quantity.name: (("design", *quantity.axes), quantity.values, _units(quantity.unit))
+            for quantity in self.quantities
+        }
+        found["error"] = ("design", self.error, _units(""))
+        found["problem"] = ("design", self.problems)
+        used = {axis for quantity in self.quantities for axis in quantity.axes}
+        places: dict[str, Any] = {axis: of for axis, of in self.labels.items() if axis in used}
+        if "speed" in used:
+            places["speed"] = ("speed", list(self.speeds), _units("m/s"))
+        if "position" in used:
+            places["position"] = ("position", list(self.positions), _units("m"))
+        for name, of in self.parameters.items():
+            places[name] = ("design", of, _units(self.units[name]))
+        places["design"] = np.arange(len(self))
+        return xarray.Dataset(found, places, {"remarks": list(self.remarks)})
+
     def _columns(self) -> Iterator[tuple[str, Array]]:
         labels = self.labels
         for quantity in self.quantities:
@@ -134,6 +169,10 @@ class DesignValues:
             each = quantity.values.reshape(len(self), -1).T
             for case, values in zip(cases, each, strict=True):
                 yield quantity.column(dict(zip(quantity.axes, case, strict=True))), values
+
+
+def _units(unit: str) -> dict[str, str]:
+    return {"units": unit or "1"}
 
 
 def headed(name: str, unit: str) -> str:
