@@ -58,7 +58,8 @@ _WHERE = {
               "plot_comfort_along", "plot_comfort_map", "plot_comfort_over_speed", "plot_damping",
               "plot_loci", "plot_loop_spectra", "plot_loops", "plot_modes", "plot_record",
               "plot_record_rating", "plot_record_spectrum", "plot_ride", "plot_running_rms",
-              "plot_root_locus", "plot_track", "plot_track_overview", "plot_track_spectrum",
+              "plot_root_locus", "plot_tornado", "plot_tornadoes", "plot_track",
+              "plot_track_overview", "plot_track_spectrum",
               "plot_sobol_indices", "plot_uncertainty", "plot_uncertainty_study"),
     "errors": ("InputError",),
 }  # fmt: skip

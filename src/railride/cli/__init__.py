@@ -14,6 +14,7 @@ from railride.cli.derive import derive
 from railride.cli.map import comfort_map
 from railride.cli.modes import modes
 from railride.cli.ride import ride
+from railride.cli.sensitivity import sensitivity
 from railride.cli.track import track
 from railride.cli.uncertainty import uncertainty
 
@@ -34,6 +35,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "map": comfort_map,
     "modes": modes,
     "ride": ride,
+    "sensitivity": sensitivity,
     "track": track,
     "uncertainty": uncertainty,
 }

@@ -29,6 +29,7 @@ from railride.plots.stochastic import (
     plot_comfort_map,
     plot_comfort_over_speed,
 )
+from railride.plots.tornado import plot_tornado, plot_tornadoes
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
 from railride.plots.uncertainty import (
     plot_sobol_indices,
@@ -62,6 +63,8 @@ __all__ = [
     "plot_root_locus",
     "plot_running_rms",
     "plot_sobol_indices",
+    "plot_tornado",
+    "plot_tornadoes",
     "plot_track",
     "plot_track_overview",
     "plot_track_spectrum",

@@ -34,6 +34,7 @@ MARKS = "sD^vPXo"
 
 TITLE: dict[str, Any] = {"loc": "left", "fontsize": "medium"}
 DPI = 150
+TALLEST = 200.0  # in: beyond about 430 there are more pixels than Agg can draw
 # Metadata that would differ from one run, or one version of matplotlib, to the next.
 _METADATA: dict[str, dict[str, None]] = {
     "png": {"Software": None},

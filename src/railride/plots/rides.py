@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 ZOOM = 1.0  # s
 _ROOM = 0.35  # of the largest value, above it: the legend's place
-_TALLEST = 200.0  # in: beyond about 430 there are more pixels than Agg can draw
 
 
 def plot_acceleration(
@@ -54,7 +53,7 @@ def plot_ride(result: RideResult) -> Figure:
     Raises InputError for a ride without a time run (``spectral``).
     """
     rows = len(result.cases)
-    figure = canvas.new_figure(11.0, min(2.7 * rows + 0.4, _TALLEST))
+    figure = canvas.new_figure(11.0, min(2.7 * rows + 0.4, canvas.TALLEST))
     pairs = figure.subplots(rows, 2, squeeze=False, sharey="row", width_ratios=(2, 1))
     for case, (left, right) in zip(result.cases, pairs, strict=True):
         _draw_case(case, left, right)

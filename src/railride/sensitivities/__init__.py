@@ -6,12 +6,13 @@ squares and their gradients by the adjoint), roots (natural frequencies, damping
 """
 
 from railride.sensitivities.derivatives import Derivatives, Rows, Tangent
-from railride.sensitivities.result import Sensitivities, sensitivity
+from railride.sensitivities.result import FELT, Sensitivities, sensitivity
 from railride.sensitivities.roots import Roots, roots_with_gradient
 from railride.sensitivities.squares import mean_squares_with_gradient
 from railride.sensitivities.statics import static_deflections_with_gradient
 
 __all__ = [
+    "FELT",
     "Derivatives",
     "Roots",
     "Rows",

@@ -130,16 +130,22 @@ class Derivatives:
         return tuple(name for name in found if name not in self.left_out)
 
     def _named(self, parameters: Sequence[str]) -> tuple[str, ...]:
-        found = [self.model.symbol_of(name) for name in parameters]
+        found, faults = [], []
+        for name in parameters:
+            try:
+                found.append(self.model.symbol_of(name))
+            except InputError as error:
+                faults.append(str(error))
+        if not found and not faults:
+            faults.append("parameters: found none; expected at least one")
         twice = [name for name in dict.fromkeys(found) if found.count(name) > 1]
         if twice:
-            raise InputError(f"parameters: found {', '.join(twice)} twice; expected each once")
-        if not found:
-            raise InputError("parameters: found none; expected at least one")
-        for name in found:
-            fixed = _why_fixed(self.model, name)
-            if fixed is not None:
-                raise fixed
+            faults.append(f"parameters: found {', '.join(twice)} twice; expected each once")
+        faults += [
+            str(why) for name in dict.fromkeys(found) if (why := _why_fixed(self.model, name))
+        ]
+        if faults:
+            raise InputError("\n".join(faults))
         return tuple(found)
 
 

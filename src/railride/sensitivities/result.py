@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 CHANGE = 0.1  # of each parameter's value
 STATED = 1e-6  # error of a relative sensitivity above which it is remarked on
+FELT = 1e-9  # relative change of a_wrms below which a parameter is not felt: rounding
 AT_NODE = 1e-9  # of the body's length: a place so near a hinge is at it
 
 
@@ -84,6 +85,17 @@ class Sensitivities:
     def effects(self) -> Array:
         """Relative change of a_wrms, found anew, with less and more of p: (S, X, P, 2)."""
         return np.asarray(self.changed / self.a_wrms[..., np.newaxis, np.newaxis] - 1)
+
+    def ranked(self, case: int | None = None) -> list[int]:
+        """The places of the parameters whose change is felt, the most important first.
+
+        case : of which speed and point of the floor, speeds outer; default the largest of all.
+        """
+        size = np.abs(np.where(np.isfinite(self.effects), self.effects, self.linear_effects))
+        of_cases = size.max(axis=-1).reshape(-1, len(self.parameters))
+        largest = of_cases.max(axis=0) if case is None else of_cases[case]
+        order = np.argsort(-largest, kind="stable")
+        return [int(k) for k in order if largest[k] > FELT]
 
     def table(self) -> pd.DataFrame:
         """One row per speed, position and parameter.
