@@ -32,7 +32,7 @@ def through(function, distributions, **how):
     def evaluate(designs):
         y = np.asarray(function(*designs.T), dtype=float)
         problems = ["" if ok else "no value" for ok in np.isfinite(y)]
-        return pd.DataFrame({"y [m]": y}), problems
+        return pd.DataFrame({"y [m/s^2]": y}), problems
 
     names = [f"x_{k}" for k in range(1, len(distributions) + 1)]
     return propagate(evaluate, named(*names), distributions, **how)
@@ -166,7 +166,7 @@ def test_pictures_show_what_was_found():
     for estimate in one.percentiles.values():
         assert estimate.value in drawn
     assert sum(bar.get_height() for bar in ax.patches[:10]) == pytest.approx(100)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("y [m]", "designs [%]")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("y [m/s²]", "designs [%]")
     assert any("fairly comfortable" in text.get_text() for text in ax.texts)
     ax = plot_sobol_indices(found)
     order = [text.get_text() for text in ax.get_yticklabels()]

@@ -9,6 +9,7 @@ import numpy as np
 from railride.errors import InputError
 from railride.plots import canvas
 from railride.scales import SCALES
+from railride.units import to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 MOST = 6  # quantities of one picture
 BINS = 40
+_READ = {"m": "mm", "N": "kN"}  # units in which they are read
 _BAR = 0.38  # of the distance of two parameters
 
 
@@ -33,21 +35,24 @@ def plot_uncertainty(
     """
     ax = canvas.axes_or_new(ax, 7.0, 4.0)
     k = found.place(quantity)
-    one, x = found.summaries[k], found.values[:, k]
-    x = x[np.isfinite(x)]
+    one, unit = found.summaries[k], _READ.get(found.summaries[k].unit, found.summaries[k].unit)
+    x = to_unit(found.values[np.isfinite(found.values[:, k]), k], unit)
     share = np.full(x.size, 100 / x.size)
     ax.hist(x, bins=min(BINS, max(5, x.size // 25)), weights=share, color=canvas.ACCELERATION,
             label=f"{x.size} designs")  # fmt: skip
     _draw_classes(ax, one)
     for place, (p, at) in enumerate(one.percentiles.items()):
         look = canvas.line_look(place + 1)
-        ax.axvline(at.value, linewidth=1.3, label=f"{p:g} %: {at.value:#.3g}", **look)
-        if np.isfinite([at.low, at.high]).all():
-            ax.axvspan(at.low, at.high, color=look["color"], alpha=0.15, linewidth=0)
+        value, low, high = (to_unit(end, unit) for end in (at.value, at.low, at.high))
+        ax.axvline(value, linewidth=1.3, label=f"{p:g} %: {value:#.3g}", **look)
+        if np.isfinite([low, high]).all():
+            ax.axvspan(low, high, color=look["color"], alpha=0.15, linewidth=0)
     if np.isfinite(one.nominal):
-        ax.plot(one.nominal, 0, "k^", markersize=8, clip_on=False, zorder=5,
-                label=f"nominal: {one.nominal:#.3g}")  # fmt: skip
-    ax.set_xlabel(_label(one))
+        nominal = to_unit(one.nominal, unit)
+        ax.plot(nominal, 0, "k^", markersize=8, clip_on=False, zorder=5,
+                label=f"nominal: {nominal:#.3g}")  # fmt: skip
+    ax.locator_params(axis="x", nbins=7)
+    ax.set_xlabel(f"{one.name} [{unit.replace('^2', '²')}]" if unit else one.name)
     ax.set_ylabel("designs [%]")
     ax.legend(frameon=False, fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     canvas.tidy(ax)
@@ -84,7 +89,8 @@ def plot_sobol_indices(
                 edgecolor="white", linewidth=0, label=name, xerr=np.abs(ends - values),
                 error_kw={"elinewidth": 1.0, "capsize": 2.5, "ecolor": "#333333"})  # fmt: skip
     ax.set_yticks(range(len(places)), [_called(found.parameters[i]) for i in places])
-    ax.set_xlabel(f"share of the variance of {found.summaries[k].name}")
+    ax.set_xlabel("share of the variance")
+    ax.set_title(found.summaries[k].name, **canvas.TITLE)
     ax.set_xlim(left=min(0.0, *(one.low for one in (*own.first, *own.total))))
     ax.legend(frameon=False, fontsize="small", loc="lower right")
     canvas.tidy(ax)
@@ -138,7 +144,3 @@ def _called(parameter: Uncertain) -> str:
     if parameter.name != parameter.symbol or not parameter.meaning:
         return parameter.name
     return f"{parameter.meaning} {parameter.symbol}"
-
-
-def _label(one: Summary) -> str:
-    return f"{one.name} [{one.unit.replace('^2', '²')}]" if one.unit else one.name
