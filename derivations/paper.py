@@ -19,32 +19,28 @@ TITLE = "Çati, Düzgün, Kracht, Appl. Sci. 2024, 14, 3848"
 
 @dataclass(frozen=True)
 class Printed:
-    """One printed value: ``value`` in SI, ``text`` as it stands, ``where`` in the paper."""
+    """One printed value: ``value`` in the SI ``unit``, ``text`` as it stands in Table 1."""
 
     value: float
+    unit: str
     text: str
-    where: str
     meaning: str
 
 
-def _table_1(value: float, text: str, meaning: str) -> Printed:
-    return Printed(value, text, "Table 1", meaning)
-
-
 TABLE_1 = {
-    "m_c": _table_1(34_000.0, "34,000 kg", "car body mass"),
-    "I_c": _table_1(1.7e6, "1.7 × 10⁶ kg·m²", "car body moment of inertia"),
-    "m_b": _table_1(3000.0, "3000 kg", "bogie mass"),
-    "I_b": _table_1(2000.0, "2000 kg·m²", "bogie moment of inertia"),
-    "k_theta": _table_1(3.7e8, "3.7 × 10⁵ kN·m/rad", "stiffness of the torsional spring"),
-    "k_1": _table_1(5e6, "5000 kN/m", "stiffness of the primary suspension"),
-    "c_1": _table_1(3e7, "30,000 kN·s/m", "damping of the primary suspension"),
-    "k_2": _table_1(750e3, "750 kN/m", "stiffness of the secondary suspension"),
-    "c_2": _table_1(70e3, "70 kN·s/m", "damping of the secondary suspension"),
-    "f_bending": _table_1(9.6, "9.6 Hz", "bending frequency of the car body"),
-    "bs": _table_1(8.75, "8.75 m", "bogie semi space"),
-    "ws": _table_1(1.25, "1.25 m", "wheel semi space"),
-    "L": _table_1(24.0, "24 m", "car body length"),
+    "m_c": Printed(34_000.0, "kg", "34,000 kg", "car body mass"),
+    "I_c": Printed(1.7e6, "kg m^2", "1.7 × 10⁶ kg·m²", "car body moment of inertia"),
+    "m_b": Printed(3000.0, "kg", "3000 kg", "bogie mass"),
+    "I_b": Printed(2000.0, "kg m^2", "2000 kg·m²", "bogie moment of inertia"),
+    "k_theta": Printed(3.7e8, "N m/rad", "3.7 × 10⁵ kN·m/rad", "stiffness of the torsional spring"),
+    "k_1": Printed(5e6, "N/m", "5000 kN/m", "stiffness of the primary suspension"),
+    "c_1": Printed(3e7, "N s/m", "30,000 kN·s/m", "damping of the primary suspension"),
+    "k_2": Printed(750e3, "N/m", "750 kN/m", "stiffness of the secondary suspension"),
+    "c_2": Printed(70e3, "N s/m", "70 kN·s/m", "damping of the secondary suspension"),
+    "f_bending": Printed(9.6, "Hz", "9.6 Hz", "bending frequency of the car body"),
+    "bs": Printed(8.75, "m", "8.75 m", "bogie semi space"),
+    "ws": Printed(1.25, "m", "1.25 m", "wheel semi space"),
+    "L": Printed(24.0, "m", "24 m", "car body length"),
 }
 
 TABLE_2 = {"f3": 12.5, "f4": 12.5, "f5": 2.37, "f6": 3.35, "Q4": 0.63, "Q5": 0.91, "Q6": 0.91}
@@ -125,7 +121,7 @@ def coach_of_inertia() -> VehicleModel:
 READINGS: dict[str, dict[str, float]] = {
     "as railride reads it": {},
     "primary damping as printed": {"c_1": TABLE_1["c_1"].value},
-    "primary suspension per axle box: k_1, c_1 doubled": {"k_1": 10e6, "c_1": 60e3},
-    "secondary suspension per side: k_2, c_2 doubled": {"k_2": 1.5e6, "c_2": 140e3},
+    "primary suspension per axle box: k₁, c₁ doubled": {"k_1": 10e6, "c_1": 60e3},
+    "secondary suspension per side: k₂, c₂ doubled": {"k_2": 1.5e6, "c_2": 140e3},
 }
 """Other values for what the paper leaves open, for ``coach().changed(**…)``."""
