@@ -33,6 +33,7 @@ derivations: $(VENV)/test.stamp ## Make the pinned derivations again
 	  --output derivations/half_body.md
 	$(BIN)/python -m railride derive --system half-body-free --format markdown \
 	  --output derivations/half_body_free.md
+	$(BIN)/python derivations/paper_check.py
 
 bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json
 	$(BIN)/python benchmarks/run.py

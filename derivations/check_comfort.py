@@ -6,7 +6,7 @@ from math import inf
 
 import numpy as np
 import sympy as sp
-from check_values import Pair, base, comfort_table, percent, runs, shown, values
+from check_values import RUNS, Pair, base, comfort_table, percent, runs, shown, values
 from check_vehicle import PLACES, along
 from claims import FAILS, FOLLOWS, OPEN, Claim, claim, columns, figure
 from paper import OUTPUT_STEP, TABLE_2, TABLE_4, coach
@@ -104,8 +104,8 @@ def root_mean_square() -> Claim:
         "none",
         "Eq (5) is the standard's root mean square, and its units agree: m/s² on both sides. It "
         f"may stand alone while the crest factor is below {BASIC:g} (ISO 2631-1), which the paper "
-        f"does not check. In 20 runs of 1 km at each speed on ERRI low, rigid and flexible, the "
-        f"largest crest factor is {crest:.1f}: it may.",
+        f"does not check. In {RUNS} runs of 1 km at each speed on ERRI low, rigid and flexible, "
+        f"the largest crest factor is {crest:.1f}: it may.",
     )
 
 

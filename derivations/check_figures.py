@@ -124,7 +124,8 @@ def speed() -> Figure:
     for row in TABLE_4:
         difference = 100 * (row.dymola / row.vampire - 1)
         bottom.plot(row.speed_kmh, difference, "s", color=BLACK)
-    bottom.annotate("DYMOLA over VAMPIRE, Table 4", (172, 9), ha="center", va="center")
+    first = 100 * (TABLE_4[0].dymola / TABLE_4[0].vampire - 1)
+    bottom.annotate("Table 4, DYMOLA over VAMPIRE", (142, first), ha="right", va="center")
     bottom.set_ylim(0, 50)
     bottom.set_ylabel("two halves\nover beam [%]")
     bottom.set_xlabel("speed [km/h]")
@@ -184,7 +185,8 @@ def levels() -> Figure:
     ticks, names = [], []
     row = 0
     for scale in (PAPER_TABLE_3, EN_12299_CONTINUOUS, ISO_2631_1_ANNEX_C):
-        ax.annotate(scale.name, (least * 1.02, row), va="center", fontweight="bold")
+        ax.annotate(scale.name, (least * 1.02, row), va="center", fontweight="bold",
+                    bbox={"color": "white", "pad": 1.5}, zorder=4)  # fmt: skip
         for entry, shade in zip(scale.classes, np.linspace(0.85, 0.45, len(scale.classes)),
                                 strict=True):  # fmt: skip
             row += 1
@@ -200,7 +202,7 @@ def levels() -> Figure:
             ax.axvline(value, color=colour, linestyle=look, linewidth=1.4,
                        label=f"{name}, {printed.speed_kmh:g} km/h")  # fmt: skip
     ax.set_yticks(ticks, names)
-    ax.invert_yaxis()
+    ax.set_ylim(row - 1.3, -0.8)
     ax.set_xscale("log")
     ax.set_xlim(least, most)
     marks = (0.1, 0.2, 0.3, 0.4, 0.6, 1.0, 2.0, 4.0)

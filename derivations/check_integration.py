@@ -22,6 +22,7 @@ from paper import DASSL_TOLERANCE, OUTPUT_STEP, SPEEDS_KMH, TABLE_1, VAMPIRE_STE
 
 from railride import KMH, weighting
 from railride.markup import Table
+from railride.numeric import Matrices
 from railride.response import first_order_hold
 
 
@@ -54,12 +55,18 @@ def tolerance() -> Claim:
     )
 
 
-def integrated_by_euler_cromer(flexible: bool, step: float = VAMPIRE_STEP) -> Pair:
-    """a_wrms of the vehicle as the Euler-Cromer method integrates it: exact for its recursion.
+def euler_cromer_stiffness(A: Matrices, frequency: Array, step: float) -> Array:
+    """The dynamic stiffness that the Euler-Cromer method gives a vehicle: (F, n, n).
 
     v⁺ = v + h q̈(q, v), q⁺ = q + h v⁺ is M (z - 2 + 1/z)/h² q + C (1 - 1/z)/h q + K q = force,
-    with z = exp(iωh).
+    with z = exp(iωh). frequency : in Hz, (F,). step : h, s.
     """
+    z = np.exp(2j * pi * frequency * step)[:, None, None]
+    return (z - 2 + 1 / z) / step**2 * A.M + (1 - 1 / z) / step * A.C + A.K
+
+
+def integrated_by_euler_cromer(flexible: bool, step: float = VAMPIRE_STEP) -> Pair:
+    """a_wrms of the vehicle as the Euler-Cromer method integrates it: exact for its recursion."""
     model, W = coach(flexible), weighting("Wk")
     A = model.matrices()
     row = model.output_rows([model.floor(0.0, "polygon", derivative=0)])["d"][0]
@@ -69,11 +76,11 @@ def integrated_by_euler_cromer(flexible: bool, step: float = VAMPIRE_STEP) -> Pa
         total = 0.0
         for _, f, df, _ in one.pieces():
             s, z = 2j * pi * f, np.exp(2j * pi * f * step)
-            second, first = (z - 2 + 1 / z) / step**2, (1 - 1 / z) / step
-            D = second[:, None, None] * A.M + first[:, None, None] * A.C + A.K
+            D = euler_cromer_stiffness(A, f, step)
             w = np.exp(-np.outer(s, delays))
             force = w @ A.K_w.T + s[:, None] * (w @ A.C_w.T)
-            a = second * (np.linalg.solve(D, force[..., None])[..., 0] @ row)
+            height = np.linalg.solve(D, force[..., None])[..., 0] @ row
+            a = (z - 2 + 1 / z) / step**2 * height
             total += float(np.sum(np.abs(a * W.response(f)) ** 2 * one.elevation_density(f) * df))
         found.append(total**0.5)
     return found[0], found[1]

@@ -8,6 +8,7 @@ import check_integration
 import numpy as np
 from check_introduction import over_reading
 from check_values import (
+    RUNS,
     Array,
     Pair,
     base,
@@ -88,7 +89,7 @@ def one_kilometre() -> Claim:
         ("duration of 1 km", *(f"{t:.1f} s" for t in T)),
         ("standard error of a_wrms, rigid", *(f"{100 * x:.1f} %" for x in error[False])),
         ("standard error of a_wrms, flexible", *(f"{100 * x:.1f} %" for x in error[True])),
-        ("scatter of 20 runs, flexible", *(f"{100 * x:.0f} %" for x in scatter)),
+        (f"scatter of {RUNS} runs, flexible", *(f"{100 * x:.0f} %" for x in scatter)),
         ("track for 2 %, flexible", *(f"{SECTION * (x / 0.02) ** 2 / 1000:.0f} km"
                                     for x in error[True])),
     ]  # fmt: skip
