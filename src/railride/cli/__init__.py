@@ -13,6 +13,7 @@ from railride.cli.compare import compare
 from railride.cli.derive import derive
 from railride.cli.map import comfort_map
 from railride.cli.modes import modes
+from railride.cli.optimise import optimise
 from railride.cli.ride import ride
 from railride.cli.sensitivity import sensitivity
 from railride.cli.track import track
@@ -34,6 +35,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "derive": derive,
     "map": comfort_map,
     "modes": modes,
+    "optimise": optimise,
     "ride": ride,
     "sensitivity": sensitivity,
     "track": track,

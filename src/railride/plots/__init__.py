@@ -16,6 +16,13 @@ from railride.plots.comparison import (
 )
 from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import MOST_MODES, chosen_modes, left_out, plot_modes
+from railride.plots.optimisation import (
+    plot_optimum,
+    plot_optimum_comfort,
+    plot_optimum_limits,
+    plot_optimum_parameters,
+    plot_pareto,
+)
 from railride.plots.records import (
     plot_record,
     plot_record_rating,
@@ -56,6 +63,11 @@ __all__ = [
     "plot_loop_spectra",
     "plot_loops",
     "plot_modes",
+    "plot_optimum",
+    "plot_optimum_comfort",
+    "plot_optimum_limits",
+    "plot_optimum_parameters",
+    "plot_pareto",
     "plot_record",
     "plot_record_rating",
     "plot_record_spectrum",
