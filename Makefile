@@ -28,11 +28,17 @@ format: $(VENV)/dev.stamp ## Mend what style and format checks can mend
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
+DERIVE := $(BIN)/python -m railride derive --format markdown
+COACH := $(DERIVE) --nonlinear --vehicle cati2024
+
 derivations: $(VENV)/test.stamp ## Make the pinned derivations again
-	$(BIN)/python -m railride derive --system half-body --format markdown \
-	  --output derivations/half_body.md
-	$(BIN)/python -m railride derive --system half-body-free --format markdown \
-	  --output derivations/half_body_free.md
+	$(DERIVE) --system half-body --output derivations/half_body.md
+	$(DERIVE) --system half-body-free --output derivations/half_body_free.md
+	$(COACH) --system body --segments 2 --output derivations/body_2.md
+	$(COACH) --system body --segments 4 --output derivations/body_4.md
+	$(COACH) --segments 1 --output derivations/vehicle_1.md
+	$(COACH) --segments 2 --output derivations/vehicle_2.md
+	$(COACH) --segments 4 --output derivations/vehicle_4.md
 	$(BIN)/python derivations/paper_check.py
 
 bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json

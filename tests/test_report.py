@@ -2,13 +2,16 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import read_latex
 import sympy as sp
 from markdown_it import MarkdownIt
+from vehicles import random_vehicle
 
-from railride import derive_vehicle, load_vehicle, modes
+from railride import derive_vehicle, load_vehicle, modes, report
 from railride.halfbody_report import Derivation, half_body_document
 from railride.lagrange import Coordinate
 from railride.markup import (
@@ -20,10 +23,12 @@ from railride.markup import (
     latex,
     markdown,
     math,
+    number,
     sum_lines,
     width,
 )
-from railride.report import command, number, vehicle_document
+from railride.parameters import Equipment, Load
+from railride.report import Subject, vehicle_document
 
 
 @pytest.fixture(scope="module")
@@ -58,14 +63,15 @@ def is_balanced(formula: str) -> bool:
 
 COMMANDS = set(
     "frac dot ddot theta zeta mu lambda omega varphi pi left right begin end sin cos arcsin sqrt "
-    "mathrm mathbf vec partial delta qquad quad text thinspace vert times cdot".split()
+    "mathrm mathbf vec partial delta qquad quad text thinspace vert bigg times cdot tan "
+    "sum".split()
 )
 
 
 def test_sections_come_in_the_order_of_a_derivation(documents):
     text = documents["coach 2"]
-    wanted = ["# cati2024: a car body of 2", "## Coordinates", "## Kinematics", "## Energies",
-              "## Linear equations", "## Parameters", "## Natural frequencies"]  # fmt: skip
+    wanted = ["# cati2024: a car body of 2", "## Coordinates", "## Positions", "## Energies",
+              "## Equilibrium", "## Linear", "## Parameters", "## Natural"]  # fmt: skip
     places = [text.index(heading) for heading in wanted]
     assert places == sorted(places)
     assert "## Nonlinear" not in text
@@ -126,12 +132,69 @@ def test_matrices_in_the_document_are_those_of_the_model(coaches, documents):
             np.testing.assert_allclose(A, expected, rtol=1e-12, atol=1e-6)
 
 
-def test_listed_entries_cover_the_upper_triangle(coaches, documents):
-    """A matrix too wide for a page is listed by values: as many places as entries."""
-    table = documents["coach 4"].split("$K$, 9 × 9")[1].split("\n\n")[1]
-    K = coaches[4].linear.K
-    upper = [ij for ij in K.todok() if ij[0] <= ij[1]]
-    assert table.count("$(") == len(upper)
+def test_a_large_band_is_told_by_its_diagonals():
+    """Of 20 segments: put together from the table, it is the free body's stiffness."""
+    model = derive_vehicle(load_vehicle("cati2024"), 20)
+    text = vehicle_document(model, "markdown")
+    factor, rows = re.findall(
+        r"^\$K_f\$ has, 21 × 21, symmetric, \$([^$]+)\$ times [^|]+\n((?:\|.*\n)+)",
+        text,
+        re.MULTILINE,
+    )[0]
+    values = {name: float(value) for name, value in model.values().items()}
+    K = np.zeros((21, 21))
+    for d, entries in re.findall(r"^\| (\d+) \| (.*) \|$", rows, re.MULTILINE):
+        along = []
+        for entry, times in re.findall(r"\$([^$]+)\$(?: \((\d+) times\))?", entries):
+            along += [read_latex.value(entry, values)] * int(times or 1)
+        K += np.diag(along, int(d)) + (np.diag(along, -int(d)) if int(d) else 0)
+    K *= read_latex.value(factor, values)
+    np.testing.assert_allclose(K, model.free_body_stiffness(), rtol=1e-9, atol=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["mounted dampers", "equipment", "unlike bogies", "beam"])
+def test_blocks_make_up_the_matrices_of_any_vehicle(kind):
+    """What is printed in blocks, put together again, against the model's numbers."""
+    model = UNUSUAL[kind]()
+    text = vehicle_document(model, "markdown", nonlinear=True)
+    section = text.split("## Linear")[1].split("## Parameters")[0]
+    values = {name: float(value) for name, value in model.values().items()} | {"pi": np.pi}
+    numbers = model.matrices()
+    pairs = [
+        pair for formula in read_latex.formulas(section) for pair in read_latex.equations(formula)
+    ]
+    for _ in range(3):  # what is defined later may stand earlier
+        for left, right in pairs:
+            try:
+                values[read_latex.name(left)] = read_latex.value(right, values)
+            except ValueError:
+                continue
+    for letter in ("M", "C", "K"):
+        found = values[letter]
+        if found.shape == numbers.K.shape:
+            np.testing.assert_allclose(found, getattr(numbers, letter), rtol=1e-9, atol=1e-5)
+    assert values["K"].shape == numbers.K.shape
+
+
+def _mounted():
+    coach = load_vehicle("cati2024")
+    more = {"secondary_damper_stiffness": 5e6, "primary_damper_stiffness": 8e6}
+    return derive_vehicle(replace(coach, bogies=[replace(b, **more) for b in coach.bogies]), 2)
+
+
+def _equipped():
+    hung = (Equipment(2000.0, 2.0, frequency=8.0, damping_ratio=0.1),
+            Equipment(1000.0, -4.0, stiffness=1e6, damping=1e4))  # fmt: skip
+    return derive_vehicle(replace(load_vehicle("cati2024"), equipment=hung,
+                                  payload=(Load(5000.0),)), 4)  # fmt: skip
+
+
+UNUSUAL = {
+    "mounted dampers": _mounted,
+    "equipment": _equipped,
+    "unlike bogies": lambda: derive_vehicle(random_vehicle(1), 3),
+    "beam": lambda: derive_vehicle(load_vehicle("cati2024"), body="beam", modes=3),
+}
 
 
 def test_figures_of_modes_and_parameters(coaches, documents):
@@ -151,6 +214,9 @@ def test_nonlinear_equations_name_the_pitch_angles(documents):
 
 
 def test_command_makes_the_document(coaches):
+    def command(model, form, nonlinear=False, **more):
+        return report.command(Subject(model, False, form, nonlinear, **more))
+
     assert command(coaches[4], "latex") == (
         "railride derive --vehicle cati2024 --segments 4 --format latex"
     )
@@ -162,6 +228,9 @@ def test_command_makes_the_document(coaches):
     )
     other = derive_vehicle(load_vehicle("manchester"), 2, bending_frequency=8.7)
     assert "--vehicle manchester --segments 2 --bending-frequency 8.7 " in command(other, "latex")
+    assert command(coaches[4], "markdown", document="my coach.md").endswith(
+        " --segments 4 --format markdown --output 'my coach.md'"
+    )
 
 
 def test_latex_is_an_article_with_the_same_mathematics(documents):
@@ -169,7 +238,7 @@ def test_latex_is_an_article_with_the_same_mathematics(documents):
         text, twin = half_body_document(free, "latex"), documents[f"half body {free}"]
         assert text.startswith(r"\documentclass{article}")
         assert text.endswith("\\end{document}\n")
-        for environment in ("document", "longtable", "verbatim", "aligned", "bmatrix"):
+        for environment in ("document", "longtable", "lstlisting", "aligned", "bmatrix"):
             opened = text.count(rf"\begin{{{environment}}}")
             assert opened == text.count(rf"\end{{{environment}}}") > 0
         for formula in formulas(twin):

@@ -20,8 +20,8 @@ ORDER = """
 errors files units tables toml_tables quantities
 body_profile body_segments body_sources body_checks car_body vehicle_data
 record_tables body_tables parameters
-lagrange jets linear halfbody numeric
-plausibility bodies carried running_gear parameter_values vehicle
+lagrange resultants jets linear halfbody numeric
+plausibility bodies carried running_gear parameter_values vehicle preloads
 firstorder naming modal loci statespace spectra frequency bodes
 track trackfile response weightings scales comfort records stochastic timerun rides active
 comparison

@@ -8,18 +8,28 @@ Source: Y. Çati, M. Düzgün, F.E. Kracht, Appl. Sci. 2024, 14, 3848, Section 2
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
 from math import pi
+from shlex import quote
 
 import sympy as sp
-from sympy import cos, sin
 
-from railride.halfbody import PAPER_VALUES, L_h, half_body, k_theta, m_h, positions, theta
-from railride.lagrange import Lagrangian, rate
-from railride.linear import LinearModel, linearise, linearise_equations
-from railride.markup import Block, Equation, Heading, Paragraph, Table, math, sum_lines
-from railride.report import LAGRANGE, for_sympy, number, render
+from railride.halfbody import PAPER_VALUES, Derivation, L_h, k_theta, m_h, positions, theta
+from railride.lagrange import rate
+from railride.markup import (
+    Block,
+    Equation,
+    Figure,
+    Heading,
+    Paragraph,
+    Table,
+    math,
+    number,
+    sum_lines,
+)
+from railride.preloads import g
+from railride.report import LAGRANGE, for_sympy, render
+
+N_theta = sp.Symbol("N_theta", real=True)
 
 PRINTED_HZ = 9.6  # Table 1: first bending of the car body
 SYSTEM = {False: "half-body", True: "half-body-free"}
@@ -30,86 +40,35 @@ MEANING = {
 }
 
 
-def half_body_document(free: bool, form: str) -> str:
+def half_body_document(free: bool, form: str, figure: str = "", document: str = "") -> str:
     """The derivation of the paper's car body of two halves as "markdown" or "latex".
 
     free: False for the paper's ends held at height zero, True for a body free in space.
+    figure: file name of a picture of the coordinate, to be shown.
+    document: file name under which the document is kept, for the command that makes it.
     """
-    return render(blocks(free, form), form)
+    return render(blocks(free, form, figure, document), form)
 
 
-@dataclass(frozen=True)
-class Derivation:
-    """One reading of the two halves, and all that follows from it."""
-
-    free: bool
-
-    @cached_property
-    def system(self) -> Lagrangian:
-        """The energies."""
-        return half_body(self.free)
-
-    @cached_property
-    def equation(self) -> sp.Expr:
-        """The nonlinear equation of motion, left-hand side, ordered by the second rate."""
-        return sp.collect(sp.expand(self.system.equations()[0]), theta.ddot)
-
-    @cached_property
-    def linear(self) -> LinearModel:
-        """M and K, from the energies; the nonlinear equation must give the same.
-
-        Raises
-        ------
-        ArithmeticError : they differ.
-        """
-        linear, check = linearise(self.system), linearise_equations(self.system)
-        for name, A in linear.matrices.items():
-            if sp.simplify(A - check.matrices[name]).todok():
-                raise ArithmeticError(f"{name}: the two ways to linearise differ")
-        return linear.map(sp.factor)
-
-    @property
-    def omega_squared(self) -> sp.Expr:
-        """ω² = K/M."""
-        return sp.factor(self.linear.K[0, 0] / self.linear.M[0, 0])
-
-    @property
-    def frequency_hz(self) -> float:
-        """The natural frequency with the paper's values."""
-        return float(sp.sqrt(self.omega_squared.subs(PAPER_VALUES))) / (2 * pi)
-
-    @property
-    def ends(self) -> dict[str, sp.Matrix]:
-        """Points of the body: the ends, the hinge and the mass centre."""
-        front, rear = positions(self.free)
-        along_front = L_h / 2 * sp.Matrix([cos(theta), sin(theta)])
-        along_rear = L_h / 2 * sp.Matrix([cos(theta), -sin(theta)])
-        points = {
-            "front end": front - along_front,
-            "hinge": front + along_front,
-            "rear end": rear + along_rear,
-            "mass centre": (front + rear) / 2,
-        }
-        return {name: sp.simplify(r) for name, r in points.items()}
-
-
-def blocks(free: bool, form: str) -> list[Block]:
+def blocks(free: bool, form: str, figure: str = "", document: str = "") -> list[Block]:
     """The document: of the paper's body, or of the free one."""
     own, other = Derivation(free), Derivation(not free)
     return [
-        *_opening(free, form),
+        *_opening(free, form, document),
+        *_coordinate(free, figure),
         *_positions(own),
         *_energies(own),
         *_equation(own),
+        *_equilibrium(own),
         *_linear(own),
         *_numbers(own),
         *_comparison(own, other),
-        *for_sympy(own.system, own.linear, equations=True,
+        *for_sympy(own.system, own.linear, equations=[str(e) for e in own.system.equations()],
                    omega_squared=str(own.omega_squared)),
     ]  # fmt: skip
 
 
-def _opening(free: bool, form: str) -> list[Block]:
+def _opening(free: bool, form: str, document: str) -> list[Block]:
     body = "free in space" if free else "as the paper derives it"
     held = (
         "Here the body is free in space, where its mass centre stays at rest and both halves only "
@@ -118,15 +77,30 @@ def _opening(free: bool, form: str) -> list[Block]:
         else "The paper holds the front end of the body at the origin and lets its rear end slide "
         "along the $x$ axis: both ends stay at height zero."
     )
+    kept = f" --output {quote(document)}" if document else ""
     twin = f"`railride derive --system {SYSTEM[not free]} --format {form}`"
     return [
         Heading(f"The car body of two halves, {body}", 1),
-        Paragraph(f"Made by `railride derive --system {SYSTEM[free]} --format {form}`. Source: "
-                  "Çati, Düzgün, Kracht, Appl. Sci. 2024, 14, 3848 (CC BY 4.0), Section 2.3; "
-                  "numbers in brackets at the right are those of its equations"
+        Paragraph(f"Made by `railride derive --system {SYSTEM[free]} --format {form}{kept}`. "
+                  "Source: Çati, Düzgün, Kracht, Appl. Sci. 2024, 14, 3848 (CC BY 4.0), Section "
+                  "2.3; numbers in brackets at the right are those of its equations"
                   + (", of which the free body's are the counterparts." if free else ".")),
         Paragraph(f"Two slender rods, each of mass $m_h$ and length $L_h$, are joined at a hinge "
                   rf"by a torsional spring $k_\theta$. {held} The other case is made by {twin}."),
+    ]  # fmt: skip
+
+
+def _coordinate(free: bool, figure: str) -> list[Block]:
+    origin = "the mass centre" if free else "the front end"
+    shown = Figure(figure, f"The two halves, {'free' if free else 'their ends held'}: the front "
+                   "one on the left, the coordinate, and the places of their middles.")  # fmt: skip
+    return [
+        Heading("Coordinate"),
+        Paragraph(rf"One coordinate, $q = (\theta)$: the front half is turned by $\theta$, the "
+                  rf"rear half by $-\theta$, counted from the straight body. $x$ runs from the "
+                  f"front to the rear, $z$ up, and the origin is {origin}. There are no inputs and "
+                  "no forces: the body is alone."),
+        *([shown] if figure else []),
     ]  # fmt: skip
 
 
@@ -137,13 +111,7 @@ def _positions(own: Derivation) -> list[Block]:
     named = ((r"\vec r_F", r_F), (r"\vec r_R", r_R))
     lines = [rf"{name} & = {_vector(r)}" for name, r in named]
     rates = [rf"\dot{{{name[:-2]}}}{name[-2:]} & = {_vector(rate(r))}" for name, r in named]
-    origin = "the mass centre" if free else "the front end"
     return [
-        Heading("Coordinate"),
-        Paragraph(rf"One coordinate, $q = (\theta)$: the front half is turned by $\theta$, the "
-                  rf"rear half by $-\theta$, counted from the straight body. $x$ runs from the "
-                  f"front to the rear, $z$ up, and the origin is {origin}. There are no inputs and "
-                  "no forces: the body is alone."),
         Heading("Positions and velocities"),
         Paragraph(r"The middles of the halves, $\mathbf{i}$ along $x$ and $\mathbf{j}$ along $z$:"),
         Equation(rf"\begin{{aligned}} {lines[0]} \\ {lines[1]} \end{{aligned}}", _tag("1", free)),
@@ -201,13 +169,33 @@ def _equation(own: Derivation) -> list[Block]:
     ]
 
 
+def _equilibrium(own: Derivation) -> list[Block]:
+    r"""That θ = 0 is one, and what gravity would change: V_0 = m_h g (z_F + z_R) - N 2θ."""
+    rest = own.equation.subs({theta: 0, theta.dot: 0, theta.ddot: 0})
+    opening = 2 * theta
+    weight = sp.factor(m_h * g * sum(r[1] for r in positions(own.free)))
+    N = sp.solve((weight - N_theta * opening).diff(theta).subs(theta, 0), N_theta)[0]
+    second = (weight - N * opening).diff(theta, 2).subs(theta, 0)
+    told = (
+        "Gravity does no work here: the mass centre stays."
+        if weight == 0
+        else rf"Gravity is left out of $V$: the spring carries it by a preload. With both, $V_0 = "
+        rf"{math(weight)} - N_\theta \cdot 2 \theta$ has the derivative 0 at $\theta = 0$ if "
+        rf"$N_\theta = {math(N)}$, and its second derivative there is ${math(second)}$: neither "
+        "leaves a term in the linear equation."
+    )
+    return [
+        Heading("Equilibrium"),
+        Paragraph(rf"At $\theta = 0$ and at rest the left-hand side is ${math(rest)}$: the "
+                  rf"generalised force $-\partial V / \partial \theta$ vanishes. {told}"),
+    ]  # fmt: skip
+
+
 def _linear(own: Derivation) -> list[Block]:
     M, K = own.linear.M[0, 0], own.linear.K[0, 0]
-    rest = own.equation.subs({theta: 0, theta.dot: 0, theta.ddot: 0})
     return [
         Heading("Linear equation of motion"),
-        Paragraph(rf"At $\theta = 0$ and at rest the left-hand side is ${math(rest)}$: an "
-                  "equilibrium. About it"),
+        Paragraph("About the equilibrium"),
         Equation(r"M \ddot q + C \dot q + K q = 0, \qquad "
                  rf"M = \begin{{bmatrix}} {math(M)} \end{{bmatrix}}, \quad C = \begin{{bmatrix}} "
                  rf"{math(own.linear.C[0, 0])} \end{{bmatrix}}, \quad "

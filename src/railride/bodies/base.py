@@ -103,6 +103,11 @@ class BodyModel(ABC):
         """The body alone, free in space: its coordinates, T, V, D and kinematics."""
 
     @property
+    def positions(self) -> Mapping[str, tuple[sp.Expr, sp.Expr]]:
+        """Places (x, z) of its rigid parts by their index, in its coordinates and kinematics."""
+        return {}
+
+    @property
     @abstractmethod
     def parameters(self) -> tuple[Parameter, ...]:
         """The independent parameters."""

@@ -45,6 +45,11 @@ class RigidBody(BodyModel):
         return Lagrangian([z_c, theta_c], T, kinematics=kinematics)
 
     @property
+    def positions(self) -> Mapping[str, tuple[sp.Expr, sp.Expr]]:
+        """That of the mass centre."""
+        return {"c": (x_c if self.offset else sp.S.Zero, z_c)}
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         """m_c, I_c, and e_c where the mass centre is off the middle."""
         own = (

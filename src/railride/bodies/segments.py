@@ -27,7 +27,7 @@ from railride.bodies.floors import theta, z
 from railride.bodies.joints import Joints
 from railride.bodies.masses import Masses, distribution
 from railride.errors import InputError
-from railride.lagrange import Coordinate, Lagrangian
+from railride.lagrange import Coordinate, Lagrangian, rate
 from railride.numeric import Array
 from railride.parameters import Load
 
@@ -35,6 +35,11 @@ from railride.parameters import Load
 def x(i: int) -> Coordinate:
     """Place of the middle of segment i along the track."""
     return Coordinate(f"x_{i}")
+
+
+def middle(i: int) -> tuple[sp.Expr, sp.Expr]:
+    """Place (x, z) of the middle of segment i."""
+    return x(i), (z(i - 1) + z(i)) / 2
 
 
 @dataclass(frozen=True)
@@ -150,6 +155,11 @@ class SegmentedBody(BodyModel):
         return sp.Add(*pieces)
 
     @property
+    def positions(self) -> Mapping[str, tuple[sp.Expr, sp.Expr]]:
+        """Those of the segments' middles."""
+        return {str(i): middle(i) for i in range(1, self.number + 1)}
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What the masses and the joints are made from."""
         return (*self.masses.parameters, *self.joints.parameters)
@@ -239,6 +249,6 @@ def _kinetic(i: int, m: sp.Expr, S: sp.Expr, J: sp.Expr) -> sp.Expr:
     .. math:: T_i = \tfrac12 m (\dot x^2 + \dot z^2)
               + S \dot\theta (\dot z \cos\theta - \dot x \sin\theta) + \tfrac12 J \dot\theta^2
     """
-    v_x, v_z, omega = x(i).dot, (z(i - 1).dot + z(i).dot) / 2, theta(i).dot
+    (v_x, v_z), omega = map(rate, middle(i)), theta(i).dot
     T = m * (v_x**2 + v_z**2) / 2 + J * omega**2 / 2
     return T + S * omega * (v_z * cos(theta(i)) - v_x * sin(theta(i))) if S != 0 else T

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
     from railride.vehicle import VehicleModel
 
 FORMATS = (*options.FORMATS, "markdown", "latex")
-SYSTEMS = ("vehicle", "half-body", "half-body-free")
+SYSTEMS = ("vehicle", "body", "half-body", "half-body-free")
+DOCUMENTS = {"markdown": ".svg", "latex": ".pdf"}  # and the kind of picture that they can show
 SYMBOLIC = ("M", "C", "K", "K_w", "C_w")
 
 
@@ -32,8 +34,9 @@ def derive(
         typer.Option(
             metavar="|".join(SYSTEMS),
             rich_help_panel=options.BODY,
-            help="Derive this: the vehicle, or the paper's car body of two halves with its "
-            "ends held, or free (as markdown or latex).",
+            help="Derive this: the vehicle; its car body alone, free; or the paper's car body "
+            "of two halves with its ends held, or free (all but the vehicle as markdown or "
+            "latex).",
         ),
     ] = "vehicle",
     nonlinear: Annotated[
@@ -58,6 +61,8 @@ def derive(
     """Derive and linearise: coordinates, energies, equations, matrices, natural frequencies.
 
     Example:  railride derive --segments 4
+
+    As a document, with a picture beside it:  railride derive --format markdown --output coach.md
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
@@ -65,26 +70,70 @@ def derive(
     if nonlinear and form == "csv":
         given.faults.add("--nonlinear", "--format csv with it", "a format that holds equations: "
                          "table, json, markdown or latex")  # fmt: skip
+    if system != "vehicle" and form not in DOCUMENTS:
+        given.faults.add(f"--system {system}", f"--format {form}", "markdown or latex")
+    picture = _picture(form, to)
     output.check_output(given.faults, "--output", to)
-    given.separate({"--output": to}, {"--vehicle": choice.vehicle})
-    if system in SYSTEMS[1:]:
-        _write_half_body(given, system, form, nonlinear, choice.given(), to)
+    if picture is not None:
+        output.check_output(given.faults, "--output, its picture", picture)
+    given.separate({"--output": to, "--output, its picture": picture},
+                   {"--vehicle": choice.vehicle})  # fmt: skip
+    if system.startswith("half-body"):
+        _write_half_body(given, system, form, nonlinear, choice.given(), to, picture)
         return
     with working("deriving"):
         model = choice.model(given)
         remarks = [*model.vehicle.remarks, *model.remarks]
-        text = _as_text(model, form, nonlinear, remarks)
+        alone = system == "body"
+        text = (
+            _as_document(model, form, nonlinear, alone, to, picture)
+            if form in DOCUMENTS
+            else _as_text(model, form, nonlinear, remarks)
+        )
     output.write(text, to)
     output.remark(remarks)
 
 
+def _picture(form: str, to: str | None) -> str | None:
+    """The file of a document's picture, beside it: vehicle.md has vehicle_coordinates.svg.
+
+    None for a document that goes to standard output or into a pipe, and so has no place.
+    """
+    if (
+        form not in DOCUMENTS
+        or not to
+        or "\0" in to
+        or (Path(to).exists() and not Path(to).is_file())
+    ):
+        return None
+    return str(Path(to).with_name(f"{Path(to).stem}_coordinates{DOCUMENTS[form]}"))
+
+
+def _name(path: str | None) -> str:
+    """A file's own name; none for no file."""
+    return "" if path is None else Path(path).name
+
+
+def _as_document(model: VehicleModel, form: str, nonlinear: bool, alone: bool, to: str | None,
+                 picture: str | None) -> str:  # fmt: skip
+    """The derivation as a document; its picture is drawn beside it."""
+    from railride import report
+
+    text = report.vehicle_document(model, form, nonlinear, alone=alone, figure=_name(picture),
+                                   document=_name(to) if picture else "")  # fmt: skip
+    if picture is not None:
+        from railride import plots
+
+        draw = plots.plot_body_coordinates if alone else plots.plot_coordinates
+        plots.save(draw(model), picture)
+    return str(text)
+
+
 def _write_half_body(
     given: Arguments, system: str, form: str, nonlinear: bool, needless: Sequence[str],
-    to: str | None,
+    to: str | None, picture: str | None,
 ) -> None:  # fmt: skip
     """The paper's two halves, which have symbols only and no vehicle."""
-    if form not in ("markdown", "latex"):
-        given.faults.add(f"--system {system}", f"--format {form}", "markdown or latex")
     for option in needless:
         given.conflict(option, f"--system {system}")
     if nonlinear:
@@ -93,16 +142,18 @@ def _write_half_body(
     given.check()
     from railride.halfbody_report import half_body_document
 
-    output.write(half_body_document(system == "half-body-free", form), to)
+    free = system == "half-body-free"
+    text = half_body_document(free, form, _name(picture), _name(to) if picture else "")
+    if picture is not None:
+        from railride import plots
+
+        plots.save(plots.plot_half_body(free), picture)
+    output.write(text, to)
 
 
 def _as_text(model: VehicleModel, form: str, nonlinear: bool, remarks: list[str]) -> str:
     import sympy as sp
 
-    if form in ("markdown", "latex"):
-        from railride import report
-
-        return str(report.vehicle_document(model, form, nonlinear=nonlinear))
     linear = model.linear.map(sp.together)  # reads best, and is far quicker than factor
     if form == "json":
         return output.json_text({**_as_json(model, linear, nonlinear), "remarks": remarks})

@@ -14,6 +14,11 @@ from railride.plots.comparison import (
     plot_comparison,
     plot_convergence,
 )
+from railride.plots.coordinates import (
+    plot_body_coordinates,
+    plot_coordinates,
+    plot_half_body,
+)
 from railride.plots.loci import plot_damping, plot_loci, plot_root_locus
 from railride.plots.modes import MOST_MODES, chosen_modes, left_out, plot_modes
 from railride.plots.optimisation import (
@@ -52,13 +57,16 @@ __all__ = [
     "plot_acceleration",
     "plot_bending_convergence",
     "plot_bode",
+    "plot_body_coordinates",
     "plot_comfort",
     "plot_comfort_along",
     "plot_comfort_map",
     "plot_comfort_over_speed",
     "plot_comparison",
     "plot_convergence",
+    "plot_coordinates",
     "plot_damping",
+    "plot_half_body",
     "plot_loci",
     "plot_loop_spectra",
     "plot_loops",

@@ -114,19 +114,24 @@ def picture_format(path: str | Path) -> str:
     return suffix.lower().removeprefix(".")
 
 
-def save(figure: Figure, path: str | Path) -> None:
+def save(drawn: Figure | Axes, path: str | Path) -> None:
     """Write a figure to a PNG, PDF or SVG file, as a whole or not at all; 150 dots per inch.
+
+    drawn : the figure, or axes in it.
 
     The same figure gives the same bytes on every run.
 
     Raises InputError for another suffix, and where the file cannot be written.
     """
     from matplotlib import rc_context
+    from matplotlib.axes import Axes
 
     kind = picture_format(path)
     options: dict[str, Any] = {"format": kind, "dpi": DPI, "metadata": _METADATA[kind]}
     content = BytesIO()
     # An SVG's inner names are random unless salted, which only this setting can do; it is put back.
     with rc_context({"svg.hashsalt": "railride"}):
-        figure.savefig(content, **options)
+        figure = drawn.get_figure(root=True) if isinstance(drawn, Axes) else drawn
+        if figure is not None:
+            figure.savefig(content, **options)
     write_bytes(path, content.getvalue())

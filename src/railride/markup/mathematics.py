@@ -1,16 +1,9 @@
-r"""A document as a list of blocks, written as Markdown that a code host renders, or as LaTeX.
-
-Text in a block may hold ``$mathematics$`` and ```code```; the two renderers below turn a list of
-blocks into one file each, the same bytes on every machine. Mathematics is written so that no
-Markdown reader takes part of it for its own: one line to an equation, no line that begins with a
-sign, no ``*``, no underscore after a bracket.
-"""
+"""sympy's expressions as LaTeX that reads as on paper, long sums broken into lines."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -21,49 +14,6 @@ from railride.lagrange import Signal
 GREEK = ("theta", "zeta", "mu", "ell", "eta", "phi", "kappa", "rho", "alpha", "beta")
 BRACED = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}"  # with at most one pair inside
 LINE = 78  # characters of mathematics that fit on a line, commands counted as one
-
-
-@dataclass(frozen=True)
-class Heading:
-    """A heading; level 1 is the title."""
-
-    text: str
-    level: int = 2
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    """Running text."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Equation:
-    """Displayed mathematics in LaTeX, with a number in brackets if it has one."""
-
-    latex: str
-    number: str = ""
-
-
-@dataclass(frozen=True)
-class Table:
-    """Columns by their headings, and rows of text; figures stand to the right."""
-
-    columns: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    figures: Sequence[str] = ()
-
-
-@dataclass(frozen=True)
-class Code:
-    """Text to be read by a program."""
-
-    text: str
-    language: str = ""
-
-
-Block = Heading | Paragraph | Equation | Table | Code
 
 
 class Printer(LatexPrinter):
@@ -153,7 +103,8 @@ def _term_key(term: sp.Expr) -> tuple[Any, ...]:
     order = max((s.order for s in found), default=0)
     negative = term.as_coeff_Mul()[0].is_negative or False
     names = [natural(s.base.name) for s in found] or [natural(s.name) for s in symbols]
-    return -order, negative, term.count_ops() if found else 0, names, str(term)
+    plain = not found or term.as_coeff_Mul()[1].is_Symbol
+    return -order, negative, 0 if plain else term.count_ops(), names, str(term)
 
 
 def math(expression: Any) -> str:
@@ -171,7 +122,7 @@ def tidy(latex: str) -> str:
     """
     latex = re.sub(r"([_^])\{(\w|\\theta)\}", r"\1\2", latex)
     latex = re.sub(
-        r"(\\(?:sin|cos|arcsin)(?:\^\w)?) *\{(\\theta(?:_\w|_\{\w+\})?)\}", r"\1 \2", latex
+        r"(\\(?:sin|cos|tan|arcsin)(?:\^\w)?) *\{(\\theta(?:_\w|_\{\w+\})?)\}", r"\1 \2", latex
     )
     latex = latex.replace("\\\\", "\\\\ ")
     return re.sub(r" +", " ", latex).strip()
@@ -191,7 +142,57 @@ def width(latex: str) -> int:
 
 def sum_lines(left: str, expression: sp.Expr, equals: str = "=") -> str:
     """``left = term + term …``, broken into lines where it is long."""
-    terms = [math(term) for term in sorted(sp.Add.make_args(expression), key=_term_key)]
+    return aligned(continued(left, summands(expression), equals))
+
+
+def summands(expression: sp.Expr) -> list[str]:
+    """The terms of a sum in LaTeX, in the order in which they are written."""
+    return [math(term) for term in sorted(sp.Add.make_args(expression), key=_term_key)]
+
+
+def grouped_lines(left: str, expression: sp.Expr, order: Sequence[str] = ()) -> str:
+    r"""As :func:`sum_lines`, what has the same parameters before it in one bracket.
+
+    order : names of parameters; what has one that comes early is written early.
+
+    >>> from railride.lagrange import Coordinate
+    >>> k, z, y = sp.Symbol("k"), Coordinate("z"), Coordinate("y")
+    >>> grouped_lines("V", k * (y / 2 + z / 2) ** 2 / 2 + k * z**2 / 8)
+    'V = \\frac{1}{8} k \\left(z^2 + \\left(y + z\\right)^2\\right)'
+    """
+    groups: dict[sp.Expr, list[sp.Expr]] = {}
+    for term in sp.Add.make_args(expression):
+        for part in _unfolded(term):
+            varying = [s for s in part.free_symbols if isinstance(s, Signal)]
+            factor, rest = sp.factor_terms(part).as_independent(*varying, as_Add=False)
+            groups.setdefault(factor, []).append(rest)
+    ranks = {name: rank for rank, name in enumerate(order)}
+
+    def key(factor: sp.Expr) -> tuple[Any, ...]:
+        names = [s.name for s in factor.free_symbols]
+        return min((ranks.get(n, len(ranks)) for n in names), default=0), len(names), str(factor)
+
+    terms = []
+    for factor in sorted(groups, key=key):
+        parts = sorted(groups[factor], key=_term_key)
+        together = " + ".join(math(part) for part in parts)
+        if len(parts) > 1 and width(together) < LINE - width(math(factor)):
+            terms.append(rf"{math(factor)} \left({together}\right)")
+        else:
+            terms += [math(factor * part) for part in parts]
+    return aligned(continued(left, terms))
+
+
+def _unfolded(term: sp.Expr) -> Sequence[sp.Expr]:
+    """m (ẋ² + ż²) as m ẋ² and m ż²; N (θ_1 - θ_2), a sum of signals alone, stays."""
+    sums = [f for f in sp.Mul.make_args(term) if f.is_Add]
+    if all(part.as_coeff_Mul()[1].is_Symbol for f in sums for part in f.args):
+        return (term,)
+    return tuple(sp.Add.make_args(sp.expand_mul(term, deep=False)))
+
+
+def continued(left: str, terms: Sequence[str], equals: str = "=") -> list[str]:
+    """The lines of ``left = term + term …``, terms as LaTeX, ``&`` where they align."""
     signed = [t if t.startswith("- ") else f"+ {t}" for t in terms]
     signed[0] = terms[0]
     lines = [""]
@@ -199,9 +200,7 @@ def sum_lines(left: str, expression: sp.Expr, equals: str = "=") -> str:
         if lines[-1] and width(lines[-1]) + width(term) > LINE:
             lines.append("")
         lines[-1] = f"{lines[-1]} {term}".strip()
-    return aligned(
-        [f"{left} & {equals} {lines[0]}", *(rf"& \quad {{}} {more}" for more in lines[1:])]
-    )
+    return [f"{left} & {equals} {lines[0]}", *(rf"& \quad {{}} {more}" for more in lines[1:])]
 
 
 def aligned(lines: Sequence[str]) -> str:
@@ -211,95 +210,11 @@ def aligned(lines: Sequence[str]) -> str:
     return r"\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}"
 
 
-def markdown(blocks: Iterable[Block]) -> str:
-    """GitHub's Markdown, with mathematics between dollars."""
-    return "\n\n".join(_markdown(block) for block in blocks) + "\n"
+def number(value: float, digits: int = 6) -> str:
+    r"""A figure as mathematics.
 
-
-def _markdown(block: Block) -> str:
-    match block:
-        case Heading(text, level):
-            return f"{'#' * level} {text}"
-        case Paragraph(text):
-            return text
-        case Equation(latex, number):
-            mark = rf" \qquad \text{{({number})}}" if number else ""
-            return f"$$\n{latex}{mark}\n$$"
-        case Code(text, language):
-            return f"```{language}\n{text}\n```"
-        case Table(columns, rows, figures):
-            marks = ["---:" if column in figures else "---" for column in columns]
-            lines = [columns, marks, *rows]
-            return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
-PREAMBLE = r"""\documentclass{article}
-\usepackage[T1]{fontenc}
-\usepackage[utf8]{inputenc}
-\usepackage[a4paper, margin=25mm]{geometry}
-\usepackage{amsmath}
-\usepackage{graphicx}
-\usepackage{longtable}
-\setcounter{MaxMatrixCols}{99}
-% A wide formula is made as small as the line is wide.
-\newcommand{\fitted}[1]{\resizebox{\ifdim\width>0.9\linewidth 0.9\linewidth\else\width\fi}{!}%
-  {$\displaystyle #1$}}
-"""
-
-
-def latex(blocks: Iterable[Block]) -> str:
-    """An article that LaTeX compiles."""
-    title, *rest = blocks
-    if not isinstance(title, Heading) or title.level != 1:
-        raise ValueError("a document begins with its title")
-    head = f"{PREAMBLE}\\title{{{_latex_text(title.text)}}}\n\\author{{}}\n\\date{{}}\n"
-    body = "\n\n".join(_latex(block) for block in rest)
-    return f"{head}\\begin{{document}}\n\\maketitle\n\n{body}\n\n\\end{{document}}\n"
-
-
-def _latex(block: Block) -> str:
-    match block:
-        case Heading(text, level):
-            return "\\" + "sub" * (level - 2) + f"section*{{{_latex_text(text)}}}"
-        case Paragraph(text):
-            return _latex_text(text)
-        case Equation(mathematics, number):
-            mark = rf" \tag{{{number}}}" if number else ""
-            return f"\\[\n\\fitted{{{mathematics}}}{mark}\n\\]"
-        case Code(text, _):
-            return f"{{\\footnotesize\n\\begin{{verbatim}}\n{text}\n\\end{{verbatim}}}}"
-        case Table(columns, rows, figures):
-            return _latex_table(columns, rows, figures)
-
-
-def _latex_table(
-    columns: Sequence[str], rows: Sequence[Sequence[str]], figures: Sequence[str]
-) -> str:
-    """A table that may go over pages; the last column takes what it needs of the line."""
-    marks = ["r" if column in figures else "l" for column in columns]
-    if marks[-1] == "l":
-        marks[-1] = r"p{0.45\linewidth}"
-    lines = [" & ".join(_latex_text(cell) for cell in line) + r" \\" for line in (columns, *rows)]
-    inner = "\n".join([lines[0] + r" \hline \endhead", *lines[1:]])
-    return f"\\begin{{longtable}}{{{''.join(marks)}}}\n{inner}\n\\end{{longtable}}"
-
-
-def _latex_text(text: str) -> str:
-    """Running text: mathematics as it is, code in a typewriter face, the rest escaped."""
-    parts = re.split(r"(\$[^$]+\$|`[^`]+`|\*\*[^*]+\*\*)", text)
-    return "".join(_latex_span(part) for part in parts)
-
-
-def _latex_span(part: str) -> str:
-    if part.startswith("$"):
-        return part
-    if part.startswith("`"):
-        return rf"\texttt{{{_escaped(part[1:-1]).replace('--', '-{}-')}}}"
-    if part.startswith("**"):
-        return rf"\textbf{{{_escaped(part[2:-2])}}}"
-    return _escaped(part)
-
-
-def _escaped(text: str) -> str:
-    special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
-    return re.sub(r"[\\~^&%#_{}$]", lambda m: special.get(m.group(), "\\" + m.group()), text)
+    >>> number(3.7e8), number(-8.75), number(34000.0)
+    ('$3.7 \\times 10^{8}$', '$-8.75$', '$34000$')
+    """
+    mantissa, _, exponent = f"{value:.{digits}g}".partition("e")
+    return f"${mantissa} \\times 10^{{{int(exponent)}}}$" if exponent else f"${mantissa}$"
