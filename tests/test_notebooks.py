@@ -94,16 +94,16 @@ def test_prose_tells_no_result(path):
             assert not re.findall(r"\d\.\d", prose)
 
 
-def test_the_paper_and_the_free_body_in_the_first_notebook():
+def test_the_paper_and_the_free_body_in_the_derivation():
     text = "\n".join(in_text(read(FOLDER / "01_the_papers_derivation.ipynb")))
     assert "**4.79 Hz**; printed are 9.6 Hz" in text
     assert "**9.586 Hz**" in text
     assert "is 4 times that of Eq (4)" in text
 
 
-def test_checked_values_in_the_second_notebook():
+def test_checked_values_of_the_frequency_response():
     """Zeros by hand, (k + 1/2) 55.56/17.5 and /2.5 Hz; exact values of independent programs."""
-    text = "\n".join(in_text(read(FOLDER / "02_frequency_response_and_control.ipynb")))
+    text = "\n".join(in_text(read(FOLDER / "04_frequency_response.ipynb")))
     assert "at 1.587, 4.762, 7.937 Hz …, of the 2.5 m wheelbase at 11.11 Hz" in text
     assert "- rigid body: 0.0756 m/s²" in text
     assert "- 4 segments: 0.2408 m/s²" in text
