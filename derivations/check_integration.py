@@ -225,7 +225,7 @@ def peaks() -> Claim:
         f"{100 * lost:.0f} % of their height",
         f"At {OUTPUT_STEP:g} s a second of zoom has {round(1 / OUTPUT_STEP)} points, and a "
         f"vibration of {f:g} Hz {1 / (f * OUTPUT_STEP):.1f} in each of its periods. A peak between "
-        rf"two points is cut by up to $1 - \cos(\pi f\, \Delta t)$ = {100 * lost:.1f} %, and two "
+        rf"two points is cut by up to $1 - \cos(\pi f \Delta t)$ = {100 * lost:.1f} %, and two "
         "programs whose motion differs by a small phase are cut differently.",
         figure("paper_check_sampling", "One second of floor acceleration, exact and as stored "
                "every 0.02 s"),

@@ -154,8 +154,8 @@ def partial_differential() -> Claim:
         "differential equation. With one mode it is of the same size as two halves, and far "
         "nearer to the converged beam, here on the smooth floor that is kindest to the segments:",
         Table(**columns("body", *heads), rows=rows),
-        "Matrices of the same size cost the same in every solver; the times that railride measures "
-        "for these bodies (its README, `railride compare`) differ by less than they scatter.",
+        "Matrices of the same size cost a solver the same; times measured for these bodies "
+        "stand in railride's README (`railride compare`).",
     )
 
 

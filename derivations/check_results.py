@@ -336,7 +336,7 @@ def less_comfort() -> Claim:
                "beam"),
         f"From 60 to 300 km/h it falls over {100 * np.mean(steps < 0):.0f} % of the way. "
         rf"Wheelbase {wheelbase:g} m and bogie spacing {spacing:g} m filter the track: in the "
-        r"middle nothing arrives at $(k + \frac{1}{2})\, V/2b$ for either distance $2b$, so that "
+        r"middle nothing arrives at $(k + \frac{1}{2}) V/(2b)$ for either distance $2b$, so that "
         rf"the bending at {f:g} Hz is not excited at $V = 2 \cdot {f:g} \cdot {wheelbase:g}$ m/s = "
         f"{dead:.0f} km/h. The rigid vehicle does become rougher all the way. Nor do "
         "frequencies rise. Zero up-crossings of the floor's acceleration in a second:",

@@ -71,8 +71,8 @@ def time_history() -> Claim:
         FAILS,
         f"from third octaves instead: {change(pair)}",
         r"The weighted r.m.s. of a stationary ride is an integral over its spectrum, "
-        r"$a_w^2 = \int \lvert W_k \rvert^2 S_a\, df$, and, as is commonly done, a sum over "
-        r"third octaves, $a_w^2 = \sum_i (W_i a_i)^2$:",
+        r"$a_w^2 = \int \lvert W_k \rvert^2 S_a \thinspace df$, and, as is commonly done, a sum "
+        r"over third octaves, $a_w^2 = \sum_i (W_i a_i)^2$:",
         Table(
             **columns("flexible vehicle", "145 km/h", "200 km/h"),
             rows=[

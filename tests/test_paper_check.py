@@ -2,6 +2,7 @@
 
 import io
 import re
+from html import unescape
 from math import pi, tan
 from pathlib import Path
 
@@ -19,6 +20,7 @@ import paper_check
 import pytest
 from check_values import base, values
 from claims import FAILS, FOLLOWS, MARKS, OPEN, linked
+from markdown_it import MarkdownIt
 from PIL import Image
 from scipy import signal
 
@@ -90,6 +92,18 @@ def test_every_link_leads_somewhere():
     pictures = re.findall(r"\]\((figures/.+?)\)", PINNED)
     assert sorted(pictures) == sorted(f"figures/{name}.png" for name in check_figures.FIGURES)
     assert all((FOLDER / path).exists() for path in pictures)
+
+
+def test_mathematics_and_tables_survive_markdown():
+    """A reader that knows no mathematics takes nothing of it for its own; rows are whole."""
+    html = MarkdownIt("commonmark").enable("table").render(PINNED)
+    shown = unescape(re.sub(r"<[^>]+>", "", html))
+    inline = re.findall(r"(?<!\$)\$([^$\n]+)\$", PINNED)
+    assert len(inline) > 40
+    assert [m for m in inline if m not in shown] == []
+    assert html.count("<table>") == len(re.findall(r"^\| -", PINNED, flags=re.MULTILINE))
+    for table in re.findall(r"(?:^\|.+\n)+", PINNED, flags=re.MULTILINE):
+        assert len({line.count("|") for line in table.splitlines()}) == 1
 
 
 def test_a_link_to_no_claim_is_refused():
