@@ -360,6 +360,19 @@ def test_deflections_and_wheel_loads_equal_the_quadrature(name, V):
         assert (error < 1e-8).all()
 
 
+@pytest.mark.parametrize("name", ["paper, N = 4", "mounts"])
+def test_outputs_of_unlike_rates_together(name):
+    """Accelerations of bogies, which dampers push with ẇ, beside deflections and loads."""
+    model, changes = weighed(name)
+    chosen = ("bogie_1_acceleration", "primary_1_deflection", "wheel_load_3")
+    m, places = model.matrices(**changes), model.vehicle.wheelset_positions
+    rows = model.output_rows([model.outputs[key] for key in chosen], **changes)
+    found, error = residue_squares(m, rows, places, [40.0], LOW, LOADS[:1], BAND_HZ)
+    exact = process(m, rows, places, 40.0, LOW, LOADS[:1]).integrals().mean_square
+    np.testing.assert_allclose(found[0, 0], exact, rtol=1e-9)
+    assert (error < 1e-8).all()
+
+
 def test_loads_without_a_low_pass_do_not_fall_and_are_integrated():
     model, _ = weighed("paper, N = 4")
     m, rows = model.matrices(), model.output_rows([model.outputs["wheel_load_2"]])
@@ -404,17 +417,60 @@ def test_what_does_not_fall_towards_infinity_is_integrated():
     np.testing.assert_array_equal(found[0, 0], exact)
 
 
-def test_an_elevation_that_grows_without_end_is_integrated():
-    """∫ 1/Ω² dΩ from 0 is infinite: the floor's own motion on FRA's tracks has no whole line."""
-    model, V = paper_coach(1), 40.0
-    rows = model.output_rows([model.floor(derivative=0)])
-    m, places, of = model.matrices(), model.vehicle.wheelset_positions, spectrum("fra_4")
-    _, doubted = residue_squares(m, rows, places, [V], of, (PLAIN,), BAND_HZ)
+@pytest.mark.parametrize("V", [2.0, 40.0, 110.0])
+@pytest.mark.parametrize("name", ["paper, N = 4", "random 1, N = 2", "mounts"])
+def test_an_elevation_that_grows_without_end(name, V):
+    """FRA's ∫ 1/Ω² dΩ from 0 is infinite: the path leads about rest, where deflections vanish."""
+    model, changes = weighed(name)
+    outputs = [model.floor(derivative=0), *model.outputs.values()]
+    m, places, of = model.matrices(**changes), model.vehicle.wheelset_positions, spectrum("fra_4")
+    for output in outputs:
+        gain = LOADS[0] if output.name.startswith("wheel_load") else PLAIN
+        rows = model.output_rows([output], **changes)
+        found, error = residue_squares(m, rows, places, [V], of, (gain,), BAND_HZ)
+        by_rule = process(m, rows, places, V, of, (gain,)).integrals()
+        np.testing.assert_allclose(found[0, 0], by_rule.mean_square, rtol=1e-9)
+        assert error < 1e-8
+        assert np.abs(found[0, 0] / by_rule.mean_square - 1) < error[0, 0] + by_rule.error
+
+
+def test_an_elevation_that_grows_without_end_has_no_square_from_rest_on():
+    """From 0 Hz on the floor's motion there is infinite."""
+    model = paper_coach(1)
+    rows, places = model.output_rows([model.floor(derivative=0)]), model.vehicle.wheelset_positions
+    of, band = spectrum("fra_4"), (0.0, 80.0)
+    _, doubted = residue_squares(model.matrices(), rows, places, [40.0], of, (PLAIN,), band)
     assert not (doubted < 1e-8).any()
-    found, error = mean_squares(m, rows, places, [V], of, (PLAIN,))
-    exact = process(m, rows, places, V, of).integrals().mean_square
+
+
+@pytest.mark.parametrize("low", [2.9, 2.99, 3.01, 3.1])
+def test_the_path_about_rest_leaves_out_poles_within(low):
+    """White velocity's elevation over a mode at 3 Hz, from below and above it on: scipy's."""
+    V, f_0, zeta = 1.0, 3.0, 0.02
+    m, rows = one_mass(f_0, zeta)
+    rows = rows | {"d": rows["v"], "v": rows["d"]}
+    found, error = residue_squares(m, rows, [0.0], [V], WHITE, (PLAIN,), (low, 80.0))
+
+    def density(f):
+        r = f / f_0
+        H = (1 + 2j * zeta * r) / (1 - r**2 + 2j * zeta * r)
+        return 2 * np.pi * V * abs(H) ** 2 / (2 * np.pi * f) ** 2
+
+    exact = scipy.integrate.quad(density, low, 80.0, epsrel=1e-13, epsabs=0.0, limit=200)[0]
+    assert found[0, 0, 0, 0] == pytest.approx(exact, rel=1e-8)
+    assert abs(found[0, 0, 0, 0] / exact - 1) < error[0, 0, 0, 0] < 3e-7
+
+
+def test_a_pole_on_the_path_is_integrated():
+    """That about rest meets the pole's |λ| = 2π · 3 rad/s: it is on neither side."""
+    V, f_0, zeta, band = 1.0, 3.0, 0.02, (3.0, 80.0)
+    m, rows = one_mass(f_0, zeta)
+    rows = rows | {"d": rows["v"], "v": rows["d"]}
+    _, error = residue_squares(m, rows, [0.0], [V], WHITE, (PLAIN,), band)
+    assert np.isinf(error).all()
+    found, _ = mean_squares(m, rows, [0.0], [V], WHITE, (PLAIN,), band)
+    exact = process(m, rows, [0.0], V, WHITE, band=band).integrals().mean_square
     np.testing.assert_array_equal(found[0, 0], exact)
-    assert error < 1e-9
 
 
 def test_wheelsets_in_another_order_are_integrated():

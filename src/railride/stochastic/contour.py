@@ -10,6 +10,8 @@ infinity to its right. Then, with ω = 2πf,
 over the poles q to the right that lie below the ray from iω_2 and above its mirror image. Those of
 higher modes, however lightly damped, lie beyond and are left out as they are. What the ray and the
 lowest frequencies hold is little, and Gauss's rule takes it on panels that shrink towards poles.
+Where Φ is infinite at rest, as of elevations that grow without end, a quarter of a circle leads
+from ω_1 to iω_1 about that, in place of the axis, and poles within it are left out too.
 
 Here F = K Φ, K of the vehicle (:mod:`railride.stochastic.residues`) and Φ, even in s, of spectrum
 and weighting.
@@ -36,8 +38,9 @@ from railride.stochastic.quadrature import REACH, distances, gauss_points, grade
 POINTS = 10  # on every panel
 RAY = 1 + 1j  # direction: away from the weightings' poles, below those of higher modes
 FALLING = (0.8, 6.0)  # the ray's panels, iω_2 + ω_2 RAY y: y of the last, from one to the next
-LEVEL = (4.8, 3.0)  # where K does not fall, and what its lags leave is felt more
+LEVEL = (4.8, 3.0)  # where F falls as slowly as may be, and what its lags leave is felt more
 _DECAY = 3.0  # of the longest lag's exponential, over the shortest panel
+_ON = 1e-9  # of its size: a pole so near to the path is on it
 _NONE = np.zeros(0, dtype=complex)
 
 
@@ -48,7 +51,8 @@ class Contour:
     densities : Φ of every gain. corner : ω_2.
     points : s (N,), poles of Φ first, then those on panels. weights : (gains, N, 1); what is not
     the vehicle's poles' is Re Σ weights · K. along, low : edges of the panels of the ray, u with s
-    = iω_2 + ω_2 RAY u/(1 - u), and of those from 0 to f_1, Hz. df : of the points on panels.
+    = iω_2 + ω_2 RAY u/(1 - u), and of those from 0 to f_1, Hz, or about 0, rad. df : of the points
+    on panels. inner : ω_1 where the path leads about 0, else 0.
     """
 
     densities: tuple[Gain, ...]
@@ -58,18 +62,25 @@ class Contour:
     along: Array
     low: Array
     df: Array
+    inner: float
 
     def density(self, s: Complex) -> Complex:
         """Φ of every gain, (gains, ...)."""
         return _density(self.densities, s)
 
     def holds(self, q: Complex) -> NDArray[np.bool_]:
-        """Whether poles to the right of the axis are below the ray and above its mirror image."""
-        return np.asarray(np.abs(q.imag) < self.corner + RAY.imag * q.real)
+        """Whether poles to the right of the axis are enclosed by the path and its mirror image."""
+        return _enclosed(q, self.corner, self.inner)
+
+    def touches(self, q: Complex) -> NDArray[np.bool_]:
+        """Whether poles are on the path, so that there is no telling on which side."""
+        on_ray = np.abs(np.abs(q.imag) - RAY.imag * q.real - self.corner) < _ON * self.corner
+        return np.asarray(on_ray | (np.abs(np.abs(q) - self.inner) < _ON * self.inner))
 
     def resolves(self, q: Complex) -> bool:
         """Whether panels are short enough beside these poles of K."""
-        for edges, poles in ((self.along, _along(q, self.corner)), (self.low, q / 2j / np.pi)):
+        beside = (self.along, _along(q, self.corner)), (self.low, _low(q, self.inner))
+        for edges, poles in beside:
             away = distances(edges[:-1], edges[1:], poles)
             if (np.diff(edges) > REACH * away * (1 + 1e-9)).any():
                 return False
@@ -91,7 +102,7 @@ def contour(
     """The contour of a band, Hz, whose panels shrink towards the poles q of K where they must.
 
     lag : from the first wheelset to the last, s. panels : of the ray, :data:`FALLING`, or
-    :data:`LEVEL` where K does not fall.
+    :data:`LEVEL` where F falls as s⁻² only.
     """
     usual = _usual(densities, lag, band, panels)
     return usual if usual.resolves(q) else _contour(densities, lag, band, q, panels)
@@ -126,22 +137,38 @@ def _contour(
     along = graded_panels(ends, _along(q, corner), 1.0)
     u, du = gauss_points(along, POINTS)
     ray = corner * (1j + RAY * u / (1 - u))
-    low = np.zeros(1)
-    if band[0] > 0:
-        low = graded_panels([0.0, band[0]], q / 2j / np.pi, 1 / max(lag, 1 / band[0]))
+    low, period = np.zeros(1), 1 / max(lag, 1 / band[0]) if band[0] > 0 else 0.0
+    inner = 2 * np.pi * band[0] if any(0 in density.square_poles for density in densities) else 0.0
+    if inner:
+        low = graded_panels([0.0, np.pi / 2], _low(q, inner), period / band[0])
+    elif period:
+        low = graded_panels([0.0, band[0]], _low(q, inner), period)
     f, df = gauss_points(low, POINTS)
-    axis = 2j * np.pi * f
-    own, weights = _poles(densities, corner)
+    axis = inner * np.exp(1j * f) if inner else 2j * np.pi * f
+    on_axis = -_density(densities, axis) * df * (axis / (2 * np.pi) if inner else 1.0)
+    own, weights = _poles(densities, corner, inner)
     on_ray = 0.5j / np.pi * corner * RAY * du / (1 - u) ** 2 * _density(densities, ray)
     return Contour(
         densities,
         corner,
         np.concatenate([own, ray, axis]),
-        np.hstack([weights, on_ray, -df * _density(densities, axis)])[..., np.newaxis],
+        np.hstack([weights, on_ray, on_axis])[..., np.newaxis],
         along,
         low,
         np.concatenate([du, df]),
+        inner,
     )
+
+
+def _enclosed(q: Complex, corner: float, inner: float) -> NDArray[np.bool_]:
+    """Whether q is below the ray, above its mirror image, and beyond the circle about 0."""
+    within = np.abs(q.imag) < corner + RAY.imag * q.real
+    return np.asarray(within & (np.abs(q) > inner) if inner else within)
+
+
+def _low(q: Complex, inner: float) -> Complex:
+    """Poles as frequencies along the axis, Hz, or as angles along the circle, rad."""
+    return np.asarray(-1j * np.log(q[q != 0] / inner) if inner else q / 2j / np.pi)
 
 
 def _along(q: Complex, corner: float) -> Complex:
@@ -155,8 +182,8 @@ def _density(densities: Sequence[Gain], s: NDArray[Any]) -> Complex:
     return np.stack([density.at(x) for density in densities])
 
 
-def _poles(densities: Sequence[Gain], corner: float) -> tuple[Complex, Complex]:
-    """Φ's poles s with Re s > 0 and 0 ≤ Im s below the ray, (M,); their weights, (gains, M).
+def _poles(densities: Sequence[Gain], corner: float, inner: float) -> tuple[Complex, Complex]:
+    """Φ's poles s with Re s > 0 and 0 ≤ Im s that are enclosed, (M,); their weights, (gains, M).
 
     Of those above the real axis, the conjugate has the same share. The residue in s is -2π²/s times
     that in x = -s²/4π².
@@ -170,7 +197,7 @@ def _poles(densities: Sequence[Gain], corner: float) -> tuple[Complex, Complex]:
         residue = top / np.prod(b[:, np.newaxis] - b + np.eye(b.size), axis=1)
         weight = np.pi**2 * residue / s * np.where(s.imag > 0, 2, 1)
         weight[s.real <= 0] = np.nan  # on the path itself: no value at all
-        below = (s.imag >= 0) & (s.imag < corner + RAY.imag * s.real)
+        below = (s.imag >= 0) & _enclosed(s, corner, inner)
         rows = np.zeros((len(densities), below.sum()), dtype=complex)
         rows[number] = weight[below]
         found.append(s[below])

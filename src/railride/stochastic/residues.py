@@ -71,11 +71,12 @@ def residue_squares(
     with np.errstate(all="ignore"):  # what comes of it is not finite, and not trusted
         g = partial_fractions(forms or eigen_forms(m), rows)
         densities = [_densities(S_w, g.power, tuple(gains)) for S_w in tracks if S_w is not None]
-        growth = g.direct.shape[1]  # K falls as s^(2 growth - 2)
-        if any(len(Phi.square_zeros) + growth > len(Phi.square_poles) for Phi in densities[0]):
+        growth = g.direct.shape[1]
+        fall = min(len(Phi.square_poles) - len(Phi.square_zeros) for Phi in densities[0]) - growth
+        if fall < 0:  # F falls as s^(-2 fall - 2)
             return None
         bands = [covered_band(spectrum, V, band) for V in speeds]
-        ray, found = LEVEL if growth else FALLING, []
+        ray, found = FALLING if fall else LEVEL, []
         for start in range(0, len(g.poles), _TOGETHER):
             some = g[start : start + _TOGETHER]
             q = np.concatenate([some.poles, -some.poles], axis=None)
@@ -122,6 +123,8 @@ def _squares(
     shares = shares[vehicle, :, :, checked]  # (D, modes, speeds, gains, outputs), of one of a pair
     errors += 4 * _CAUTION * (shares * off[:, :, np.newaxis, np.newaxis]).sum(axis=1)
     errors /= np.abs(squares)
+    for path in paths:
+        errors[path.touches(-g.poles).any(axis=-1)] = np.inf
     errors[(-g.poles.real <= UNDAMPED * np.abs(g.poles)).any(axis=-1)] = np.inf
     return squares, errors
 

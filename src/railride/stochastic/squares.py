@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from railride.errors import InputError
+from railride.modal import refuse_unstable
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum, check_speed
 from railride.stochastic.fractions import EigenForms
@@ -81,13 +82,16 @@ def squares_of_many(
         found = np.full(shape, np.nan), np.full(shape, np.inf)
     squares, errors = found
     doubtful = ~(errors <= TRUSTED)
-    refused: dict[int, str] = {}
+    unstable = _unstable(forms) if forms else {}
+    refused = dict(unstable)
     for d, k in np.argwhere(doubtful.any(axis=(2, 3))).tolist():
-        vehicle, own = _one(m, rows, d), places[d] if places.ndim > 1 else places
+        if d in unstable:
+            squares[d, k], errors[d, k] = np.nan, np.inf
+            continue
+        vehicle = _one(m, rows, d)
+        own = (places[d] if places.ndim > 1 else places).tolist()
         try:
-            by_rule = process(
-                *vehicle, own.tolist(), speeds[k], spectrum, gains, band=band
-            ).integrals()
+            by_rule = process(*vehicle, own, speeds[k], spectrum, gains, band=band).integrals()
         except InputError as error:
             squares[d, k], errors[d, k] = np.nan, np.inf
             refused.setdefault(d, str(error))
@@ -96,6 +100,17 @@ def squares_of_many(
         squares[d, k][replace] = by_rule.mean_square[replace]
         errors[d, k][replace] = by_rule.error[replace]
     return squares, errors, refused
+
+
+def _unstable(forms: EigenForms) -> dict[int, str]:
+    """Why the unstable ones of many vehicles are refused, by their numbers."""
+    found: dict[int, str] = {}
+    for d in np.flatnonzero((forms.poles.real > 0).any(axis=-1)).tolist():
+        try:
+            refuse_unstable(forms.poles[d])
+        except InputError as error:
+            found[d] = str(error)
+    return found
 
 
 def _one(
