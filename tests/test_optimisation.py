@@ -20,10 +20,12 @@ from railride import (
     weighting,
     write_vehicle,
 )
-from railride.optimisation import KINDS, Cases
+from railride.optimisation import KINDS
+from railride.optimisation.cases import cases_of
 from railride.optimisation.limits import limits_of
 from railride.optimisation.measures import GRAVITY, Measures
-from railride.optimisation.task import mode_labels
+from railride.optimisation.search import MISSED, energies_of
+from railride.optimisation.task import mode_labels, task_of
 from railride.optimisation.variables import chosen_variables
 from railride.sensitivities import Derivatives
 from railride.stochastic.ride import floor_in_hand, weighted_rms_of_many
@@ -33,7 +35,7 @@ SUSPENSION = {"k_2": (4e5, 12e5), "c_2": (2e4, 15e4), "c_1": (1e4, 1e5)}
 
 
 def measures(model, parameters, kinds=(), speeds=PAPER, at=(0.0, 8.0)):
-    cases = Cases.of(model, "erri_low", speeds, at)
+    cases = cases_of(model, "erri_low", speeds, at)
     return Measures(model, Derivatives(model, parameters), cases, frozenset(kinds))
 
 
@@ -327,6 +329,36 @@ def test_starts_find_the_better_of_two_valleys():
     assert any("other local optima are worse" in said for said in several.remarks)
 
 
+def test_the_global_search_leaves_the_worse_valley_and_keeps_to_every_kind_of_limit():
+    model = derive_vehicle("manchester", 1)
+    ranges = {"k_1": (1.2e6, 5e6), "k_2": (4e5, 2e6), "c_2": (1e4, 2e5)}
+    limits = {"secondary_travel": 0.01, "primary_travel_rms": 0.002, "wheel_load_variation": 0.05,
+              "damping_ratio": {"heave": 0.2}, "secondary_static": (0.15, 0.3)}  # fmt: skip
+    given = {"limits": limits, "objective": "worst"}
+    found = optimise(model, ranges, PAPER, search="global", **given)
+    several = optimise(model, ranges, PAPER, starts=4, **given)
+    assert found.converged
+    assert found.a_wrms == pytest.approx(several.a_wrms, rel=1e-6)
+    assert any("differential evolution settled" in said for said in found.remarks)
+
+
+def test_what_the_global_search_compares_is_what_the_gradient_method_has():
+    """Limits missed count above every goal, by the worst of them; those kept not at all."""
+    model = derive_vehicle("manchester", 1)
+    ranges = {"k_1": (1.2e6, 5e6), "c_2": (1e4, 2e5)}
+    limits = {"secondary_travel": 0.012, "primary_travel": 0.004, "wheel_load_variation": 0.045,
+              "damping_ratio": {"heave": 0.15}, "primary_static": (0.02, 0.07)}  # fmt: skip
+    problem = task_of(model, ranges, cases_of(model, "erri_low", PAPER), limits=limits).problem()
+    u = np.array([[0.1, 0.5, 0.9, 0.3], [0.2, 0.6, 0.95, 0.7]])
+    found = energies_of(problem, u)
+    designs = [problem.evaluate(place) for place in u.T]
+    missed = np.array([problem.violation(design) for design in designs])
+    goals = np.log([problem.goal.value(design) for design in designs])
+    np.testing.assert_allclose((found - MISSED)[missed > 0], missed[missed > 0], rtol=1e-8)
+    np.testing.assert_allclose(found[missed == 0], goals[missed == 0], rtol=1e-8)
+    assert 0 < np.count_nonzero(missed) < 4
+
+
 # The result ----------------------------------------------------------------------------------
 
 
@@ -385,7 +417,7 @@ def test_progress_goes_up_to_its_end():
         ({"objective": "least"}, ["one of mean, worst"]),
         ({"weights": [1.0]}, ["2 numbers"]),
         ({"weights": [1.0, 1.0], "objective": "worst"}, ["expected none"]),
-        ({"search": "random"}, ["one of gradient"]),
+        ({"search": "random"}, ["one of gradient, global"]),
         ({"starts": 0}, ["a whole number from 1"]),
         ({"distance": -5.0}, ["distance"]),
         ({"distance": 20.0, "limits": {"secondary_travel": 0.01}}, ["crosses", "longer distance"]),

@@ -43,7 +43,7 @@ def optimise(
     (the goal, m/s²), limits (name, mode, at_least, bound, unit, before, value, of, binds, worth:
     what a unit of the limit changes in a_wrms), a_wrms_before, objective, cases, changes,
     iterations, evaluations, kkt_residual, converged, error, front (null, or against, unit and
-    designs), body_options, remarks.
+    designs), body_options, remarks. CSV has the changes, a row per parameter.
 
     Example:  railride optimise optimise --vehicle-file best.toml --plot best.png
     """

@@ -2,13 +2,12 @@
 
 cases (what is ridden), variables (what may change), limits (what must be kept) → measures (values
 of a design and their gradients) → problem (as an optimiser sees it) → descent (the gradient method)
-→ solve (from several starts; which limits cannot be kept), pareto (the front against travel) →
-outcome, optimum (what changed and what binds) → task (all of it) → calls, study (how it is asked
-for, in Python and in a file).
+→ search (globally, before it), solve (from several starts; which limits cannot be kept), pareto
+(the front against travel) → outcome, optimum (what changed and what binds) → task (all of it) →
+calls, study (how it is asked for, in Python and in a file).
 """
 
 from railride.optimisation.calls import optimise, pareto_front
-from railride.optimisation.cases import Cases
 from railride.optimisation.limits import KINDS, Limit
 from railride.optimisation.optimum import CaseChange, Change, LimitState, Optimum
 from railride.optimisation.pareto import ParetoFront
@@ -18,7 +17,6 @@ from railride.optimisation.task import Task
 __all__ = [
     "KINDS",
     "CaseChange",
-    "Cases",
     "Change",
     "Limit",
     "LimitState",

@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from railride.designs.given import Tracks
 from railride.errors import Faults, InputError
-from railride.optimisation.cases import Cases, Source
+from railride.optimisation.cases import cases_of
 from railride.optimisation.optimum import Optimum
 from railride.optimisation.pareto import ParetoFront
 from railride.optimisation.solve import Progress
-from railride.optimisation.task import DISTANCE, Front, task_of
+from railride.optimisation.task import Front, task_of
 from railride.optimisation.variables import Ranges
+from railride.stochastic.extremes import DISTANCE
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting
 
@@ -21,7 +23,7 @@ def optimise(
     model: VehicleModel,
     parameters: Ranges,
     speeds: float | Sequence[float],
-    track: Source | Sequence[Source] = "erri_low",
+    track: Tracks | Sequence[Tracks] = "erri_low",
     at: float | Sequence[float] = (0.0,),
     *,
     limits: Mapping[str, Any] | None = None,
@@ -54,7 +56,7 @@ def optimise(
         "primary_static": static deflection, from and to, m, None for neither.
     objective : "mean" (root of the mean of squares) or "worst" (case).
     weights : of the squares in the mean, one for each case, tracks outermost, positions innermost.
-    search : "gradient", the gradient method.
+    search : "gradient"; or "global", differential evolution, then the gradient method.
     starts : of the gradient method: the vehicle as it is, then points of Sobol's sequence by the
         seed. distance : m, over which peaks are expected.
     floor : how it is read. weight : a weighting or its name. progress : called with the fraction
@@ -74,7 +76,7 @@ def optimise(
     >>> found.converged, [state.limit.name for state in found.limits if state.binds]
     (True, ['damping_ratio of heave'])
     """
-    task = task_of(model, parameters, Cases.of(model, track, speeds, at, floor, weight),
+    task = task_of(model, parameters, cases_of(model, track, speeds, at, floor, weight),
                    limits=limits or {}, objective=objective, weights=weights, search=search,
                    starts=starts, seed=seed, distance=distance)  # fmt: skip
     return task.run(progress)
@@ -84,7 +86,7 @@ def pareto_front(
     model: VehicleModel,
     parameters: Ranges,
     speeds: float | Sequence[float],
-    track: Source | Sequence[Source] = "erri_low",
+    track: Tracks | Sequence[Tracks] = "erri_low",
     at: float | Sequence[float] = (0.0,),
     *,
     against: str = "secondary_travel",
@@ -117,7 +119,7 @@ def pareto_front(
     (np.True_, np.True_)
     """
     read = {name: options.pop(name) for name in ("floor", "weight") if name in options}
-    cases = Cases.of(model, track, speeds, at, **read)
+    cases = cases_of(model, track, speeds, at, **read)
     asked = Front(against, points)
     faults = Faults("pareto")
     asked.note_faults(model, faults)

@@ -21,9 +21,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from railride.designs.given import Cases
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.optimisation.cases import Cases, run_name
+from railride.optimisation.cases import cases_named, run_name, runs
 from railride.sensitivities import (
     Derivatives,
     Tangent,
@@ -33,6 +34,7 @@ from railride.sensitivities import (
 )
 from railride.sensitivities.statics import GRAVITY
 from railride.stochastic.extremes import (
+    DISTANCE,
     EULER,
     FEW_CROSSINGS,
     LOW_PASS_HZ,
@@ -77,7 +79,7 @@ class Measures:
     derivatives: Derivatives
     cases: Cases
     kinds: frozenset[str] = field(default=frozenset())
-    distance: float = 1000.0
+    distance: float = DISTANCE
 
     def at(self, values: dict[str, float]) -> dict[str, Values]:
         """Values of comfort and of every kind wanted, for parameters by symbol.
@@ -121,7 +123,7 @@ class Measures:
         J, dJ = (np.concatenate(part) for part in zip(*found, strict=True))
         a = np.sqrt(J)
         named = tuple(
-            f"{track}, {3.6 * speed:.6g} km/h, {x:g} m" for track, speed, x in cases.named
+            f"{track}, {3.6 * speed:.6g} km/h, {x:g} m" for track, speed, x in cases_named(cases)
         )
         return Values(a, dJ / (2 * a[:, np.newaxis]), named)
 
@@ -213,7 +215,7 @@ class Measures:
         """Every output over every run."""
         spoken = [_spoken(output.name) for output in outputs]
         return tuple(f"{name}, {run_name(track, speed)}"
-                     for track, speed in self.cases.runs for name in spoken)  # fmt: skip
+                     for track, speed in runs(self.cases) for name in spoken)  # fmt: skip
 
 
 def expected_peak_gradient(

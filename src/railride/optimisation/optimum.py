@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from railride.changed_vehicle import vehicle_with
-from railride.optimisation.cases import Cases
+from railride.designs.given import Cases
 from railride.optimisation.descent import ACTIVE
 from railride.optimisation.limits import Limit
 from railride.optimisation.pareto import ParetoFront

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from railride.optimisation.cases import cases_named
 from railride.optimisation.descent import CONVERGED, Descent
 from railride.optimisation.measures import COMFORT
 from railride.optimisation.optimum import CaseChange, Change, LimitState, Optimum
@@ -53,7 +54,7 @@ def _changes(problem: Problem, best: Descent) -> tuple[Change, ...]:
 def _cases(problem: Problem, best: Descent, own: Design | None) -> tuple[CaseChange, ...]:
     after = best.design.values[COMFORT].value.tolist()
     before = [None] * len(after) if own is None else own.values[COMFORT].value.tolist()
-    named = problem.evaluate.measures.cases.named
+    named = cases_named(problem.evaluate.measures.cases)
     return tuple(CaseChange(*case, *values)
                  for case, *values in zip(named, before, after, strict=True))  # fmt: skip
 

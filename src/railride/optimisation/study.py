@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from railride.errors import InputError
-from railride.optimisation.cases import Cases
+from railride.optimisation.cases import cases_of
 from railride.optimisation.limits import AT_LEAST, BETWEEN, KINDS, Limit, check_limits
 from railride.optimisation.problem import GOALS
 from railride.optimisation.task import (
     AGAINST,
-    DISTANCE,
     SEARCHES,
     Front,
     Task,
     mode_labels,
     task_of,
 )
+from railride.stochastic.extremes import DISTANCE
 from railride.studies import Draft, Range, Study, read_study
 from railride.toml_tables import Table
 
@@ -46,11 +46,11 @@ def read_task(name_or_path: str | Path) -> tuple[Study, Task]:
               if isinstance(p.spec, Range)}  # fmt: skip
     model = study.model()
     try:
-        cases = Cases.of(model, ride.tracks, ride.speeds, ride.positions, ride.floor, ride.weight)
+        cases = cases_of(model, ride.tracks, ride.speeds, ride.positions, ride.floor, ride.weight)
         task = task_of(model, ranges, cases, distance=limits.distance, **options)
     except InputError as error:
         raise InputError(f"{study.path}: {error}") from None
-    return study, Task(**{**vars(task), "limits": limits.limits, "front": asked})
+    return study, replace(task, limits=limits.limits, front=asked)
 
 
 def _read_optimise(table: Table, draft: Draft) -> tuple[dict[str, Any], Front | None]:

@@ -7,29 +7,32 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from railride.changed_vehicle import vehicle_with
+from railride.designs.given import Cases
 from railride.errors import Faults, InputError
 from railride.modal import modes
 from railride.numeric import Array
-from railride.optimisation.cases import Cases
+from railride.optimisation.cases import cases_named
 from railride.optimisation.limits import TRAVELS, Limit, limits_of
 from railride.optimisation.measures import COMFORT, Measures
 from railride.optimisation.optimum import Optimum
 from railride.optimisation.outcome import outcome
 from railride.optimisation.pareto import front
 from railride.optimisation.problem import Design, Evaluator, Goal, Problem, checked_weights
+from railride.optimisation.search import searched
 from railride.optimisation.solve import Progress, further_starts, own_place, solve
 from railride.optimisation.variables import Ranges, Variable, chosen_variables
 from railride.quantities import check_number
 from railride.sensitivities import Derivatives
 from railride.stochastic import missing_loads
+from railride.stochastic.extremes import DISTANCE
 from railride.vehicle import VehicleModel
 
-SEARCHES = ("gradient",)
+SEARCHES = ("gradient", "global")
 AGAINST = (*TRAVELS, "wheel_load_variation")
 MOST_STARTS, MOST_POINTS = 1000, 200
-DISTANCE = 1000.0  # m
 NUDGE = 1e-6  # of a range
 ENDS = 0.2  # of the work, where a front comes after it
+SEARCHED = 0.9  # of the work up to the optimum, where it is searched for
 
 
 @dataclass(frozen=True)
@@ -79,8 +82,15 @@ class Task:
         problem = self.problem()
         starts = self._starts(problem)
         own = self._own(problem)
-        solved = solve(problem, starts, _part(progress, 0.0, ENDS if self.front else 1.0))
-        found = outcome(problem, solved, own)
+        ends = ENDS if self.front else 1.0
+        said = []
+        begun = 0.0
+        if self.search == "global":
+            begun = SEARCHED * ends
+            best, remark = searched(problem, self.seed, _part(progress, 0.0, begun))
+            starts, said = [best, *starts], [remark]
+        solved = solve(problem, starts, _part(progress, begun, ends))
+        found = outcome(problem, replace(solved, remarks=(*said, *solved.remarks)), own)
         if self.front is None:
             return found
         against, starts = self.front.against, [solved.best.design.u, *starts]
@@ -138,7 +148,7 @@ def task_of(
     return Task(
         model, chosen_variables(model, parameters), cases,
         limits_of(model, limits or {}, mode_labels(model)), objective,
-        checked_weights(weights, objective, len(cases.named)), search, starts, seed,
+        checked_weights(weights, objective, len(cases_named(cases))), search, starts, seed,
         float(distance),
     )  # fmt: skip
 
