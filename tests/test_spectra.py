@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -187,3 +188,10 @@ def test_d1_at_145_km_h_covers_1_6_to_13_4_hz():
     assert covered_hz(D1, 145 / 3.6) == pytest.approx((1.611, 13.43), rel=1e-3)
     assert "145 km/h 1.61 to 13.4 Hz" in coverage_remark("line 4", D1, 145 / 3.6)
     assert coverage_remark("erri_low", None, 40.0) is None
+
+
+@pytest.mark.parametrize("name", spectrum_names())
+def test_a_spectrum_goes_to_another_process(name):
+    sent = pickle.loads(pickle.dumps(spectrum(name).extrapolated()))  # noqa: S301
+    Omega = 2 * np.pi / np.geomspace(0.5, 200.0, 30)
+    np.testing.assert_array_equal(sent.density(Omega), spectrum(name).extrapolated().density(Omega))

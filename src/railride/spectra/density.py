@@ -51,6 +51,7 @@ class Spectrum:
     expression is rational in Omega² (only then may one integrate by residues).
     ``breakpoints``: wavenumbers (rad/m) between which it is smooth.
     ``extrapolate``: continue the formula beyond the band. ``remarks``: what its user must know.
+    Those of the package can be pickled: to go to other processes.
 
     Raises InputError for an unknown unit or sidedness, a band that is not one, a density that is
     not finite and positive over wavelengths from 0.1 to 1000 m, and a pole that is none.

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
 from railride.spectra.density import Spectrum
+
+_K, _OC = 0.25, 0.8245  # 1, rad/m
+
+
+def _density(Av: float, Omega: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    """S(Omega) = k Av Oc²/(Omega² (Omega² + Oc²)), Av in cm² rad/m, k = 0.25."""
+    return np.asarray(_K * Av * _OC**2 / (Omega**2 * (Omega**2 + _OC**2)))
 
 
 def _fra(track_class: int, Av: float) -> Spectrum:
-    """S(Omega) = k Av Oc²/(Omega² (Omega² + Oc²)), Av in cm² rad/m, k = 0.25."""
-    k, Oc = 0.25, 0.8245
     return Spectrum(
         name=f"fra_{track_class}",
         source=f"FRA (Federal Railroad Administration), track class {track_class}",
         unit="cm^2/(rad/m)",
         sidedness="one-sided",
-        formula=lambda O: k * Av * Oc**2 / (O**2 * (O**2 + Oc**2)),  # noqa: E741
-        poles=(0j, 1j * Oc, -1j * Oc),
+        formula=partial(_density, Av),
+        poles=(0j, 1j * _OC, -1j * _OC),
     )
 
 

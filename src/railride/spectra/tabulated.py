@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import log, pi
 
 import numpy as np
@@ -189,12 +190,16 @@ def _power_laws(
     x, y = np.log(wavenumber), np.log(density)
     before, after = _end_exponent(x, y), _end_exponent(x[::-1], y[::-1])
 
-    def formula(wavenumber: NDArray[np.inexact]) -> FloatArray:
-        at = np.log(np.maximum(np.real(wavenumber), 1e-300))
-        beyond = before * np.minimum(at - x[0], 0.0) + after * np.maximum(at - x[-1], 0.0)
-        return np.asarray(np.exp(np.minimum(np.interp(at, x, y) + beyond, 700.0)))
+    return partial(_between, x, y, (before, after))
 
-    return formula
+
+def _between(
+    x: FloatArray, y: FloatArray, ends: tuple[float, float], wavenumber: NDArray[np.inexact]
+) -> FloatArray:
+    """S over Omega from y = ln S at x = ln Omega, and the exponents of both ends."""
+    at = np.log(np.maximum(np.real(wavenumber), 1e-300))
+    beyond = ends[0] * np.minimum(at - x[0], 0.0) + ends[1] * np.maximum(at - x[-1], 0.0)
+    return np.asarray(np.exp(np.minimum(np.interp(at, x, y) + beyond, 700.0)))
 
 
 def _end_exponent(x: FloatArray, y: FloatArray) -> float:

@@ -18,11 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from railride.errors import InputError
 from railride.numeric import Array
@@ -143,13 +145,18 @@ def measured_spectrum(track: Track, segment: float | None = None) -> MeasuredSpe
         source=track.source or "measured",
         unit="m^2/(rad/m)",
         sidedness="one-sided",
-        formula=lambda O: np.interp(np.real(O), lines, slope) / O**2,  # noqa: E741
+        formula=partial(_density, lines, slope),
         band=(float(shortest), float(longest)),
         breakpoints=tuple(wavenumber[inside].tolist()),
         segments=segments,
         segment=samples * track.step,
         effective_length=track.step * _even_samples(samples, hop, segments),
     )
+
+
+def _density(lines: Array, slope: Array, Omega: NDArray[np.inexact]) -> NDArray[np.inexact]:
+    """S over Omega, Ω² S linear between the lines."""
+    return np.asarray(np.interp(np.real(Omega), lines, slope) / Omega**2)
 
 
 def _even_samples(samples: int, hop: int, segments: int) -> float:
