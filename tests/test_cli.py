@@ -530,6 +530,29 @@ def test_progress_shows_on_a_terminal_after_a_while_only(monkeypatch):
         assert ("riding" in terminal.getvalue()) is shown
 
 
+def test_counts_show_with_their_rate_and_the_time_left(monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "160")
+    with progress.counting("sweeping", "designs") as advance:
+        advance(1000, 100_000)  # done before: no part of the rate
+        for done in range(2000, 4000, 10):
+            advance(done, 100_000)
+            if "designs/s" in terminal.getvalue():
+                break
+            time.sleep(0.02)
+    shown = terminal.getvalue()
+    assert re.search(r"[0-9],[0-9]{3} of 100,000 designs", shown)
+    assert re.search(r"[0-9] designs/s", shown)
+    assert re.search(r"0:[0-9]{2}:[0-9]{2}", shown)
+
+
 def test_undefined_numbers_are_null_in_json():
     text = output.json_text({"a": np.array([1.0, np.nan]), "b": float("inf"), "c": np.int64(3)})
     assert json.loads(text) == {"a": [1.0, None], "b": None, "c": 3}

@@ -30,6 +30,7 @@ distributions
 changed_vehicle
 sensitivities
 studies
+sweeps
 optimisation
 uncertainty
 markup text report halfbody_report plots cli derive __main__

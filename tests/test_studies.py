@@ -63,7 +63,7 @@ positions = ["0 m", "-250 cm"]
 floor = "polygon"
 weighting = "Wk_paper"
 extrapolate = true
-results = ["a_wrms", "travel"]
+results = ["a_wrms", "wz"]
 [parameters.k_2]
 values = ["400 kN/m", "0.5 MN/m"]
 [parameters.bending_damping]
@@ -76,7 +76,7 @@ spacing = "log"
     ride = found.ride
     assert ride.speeds == pytest.approx((10.0, 20.0), rel=1e-15)
     assert ride.positions == pytest.approx((0.0, -2.5), rel=1e-15)
-    assert (ride.floor, ride.weight, ride.results) == ("polygon", "Wk_paper", ("a_wrms", "travel"))
+    assert (ride.floor, ride.weight, ride.results) == ("polygon", "Wk_paper", ("a_wrms", "wz"))
     assert [track.name for track in ride.tracks] == ["sncf_good", "erri_low"]
     assert ride.tracks[0].active_band is None  # continued beyond its band
     assert spectrum("sncf_good").active_band is not None

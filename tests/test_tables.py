@@ -209,9 +209,9 @@ def test_numbers_beside_a_text_read_back_to_the_last_bit(read, monkeypatch):
 
 
 def test_older_pandas_is_told_to_read_to_the_last_bit():
-    assert text_module._exact("2.2.3") == {"float_precision": "round_trip"}
-    assert text_module._exact("3.0.1") == {"float_precision": "round_trip"}
-    assert text_module._exact("3.1.1") == {}
+    assert text_module.exactly("2.2.3") == {"float_precision": "round_trip"}
+    assert text_module.exactly("3.0.1") == {"float_precision": "round_trip"}
+    assert text_module.exactly("3.1.1") == {}
 
 
 def test_blocks_join_without_a_seam(read, monkeypatch):

@@ -48,6 +48,7 @@ _WHERE = {
     "designs": ("DesignValues", "evaluate_designs"),
     "distributions": ("Distribution", "sample"),
     "changed_vehicle": ("vehicle_with",),
+    "sweeps": ("SweepResult", "read_sweep", "sweep"),
     "optimisation": ("Optimum", "ParetoFront", "optimise", "pareto_front"),
     "studies": ("Study", "read_study", "shipped_studies"),
     "uncertainty": ("Uncertainty", "study_uncertainty", "uncertainty"),
@@ -62,9 +63,9 @@ _WHERE = {
               "plot_optimum_comfort", "plot_optimum_limits", "plot_optimum_parameters",
               "plot_pareto", "plot_record",
               "plot_record_rating", "plot_record_spectrum", "plot_ride", "plot_running_rms",
-              "plot_root_locus", "plot_tornado", "plot_tornadoes", "plot_track",
-              "plot_track_overview", "plot_track_spectrum",
-              "plot_sobol_indices", "plot_uncertainty", "plot_uncertainty_study"),
+              "plot_root_locus", "plot_sobol_indices", "plot_sweep", "plot_tornado",
+              "plot_tornadoes", "plot_track", "plot_track_overview", "plot_track_spectrum",
+              "plot_uncertainty", "plot_uncertainty_study"),
     "errors": ("InputError",),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

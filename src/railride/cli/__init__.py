@@ -16,6 +16,7 @@ from railride.cli.modes import modes
 from railride.cli.optimise import optimise
 from railride.cli.ride import ride
 from railride.cli.sensitivity import sensitivity
+from railride.cli.sweep import sweep
 from railride.cli.track import track
 from railride.cli.uncertainty import uncertainty
 
@@ -38,6 +39,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "optimise": optimise,
     "ride": ride,
     "sensitivity": sensitivity,
+    "sweep": sweep,
     "track": track,
     "uncertainty": uncertainty,
 }

@@ -49,8 +49,9 @@ def exits_cleanly(command: Callable[P, None]) -> Callable[P, None]:
         except BrokenPipeError:  # the reader, such as head, has seen enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             raise typer.Exit(0) from None
-        except KeyboardInterrupt:
-            _stop("railride: interrupted", INTERRUPTED)
+        except KeyboardInterrupt as stopped:
+            what = f": {stopped}" if str(stopped) else ""
+            _stop(f"railride: interrupted{what}", INTERRUPTED)
         except MemoryError:
             _stop(_TOO_MUCH, 2)
         except Exception:  # noqa: BLE001 - shown in full, and the exit code says whose fault it is

@@ -41,6 +41,7 @@ from railride.plots.stochastic import (
     plot_comfort_map,
     plot_comfort_over_speed,
 )
+from railride.plots.sweeps import plot_sweep
 from railride.plots.tornado import plot_tornado, plot_tornadoes
 from railride.plots.tracks import plot_track, plot_track_overview, plot_track_spectrum
 from railride.plots.uncertainty import (
@@ -83,6 +84,7 @@ __all__ = [
     "plot_root_locus",
     "plot_running_rms",
     "plot_sobol_indices",
+    "plot_sweep",
     "plot_tornado",
     "plot_tornadoes",
     "plot_track",

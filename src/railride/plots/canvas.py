@@ -41,6 +41,7 @@ _METADATA: dict[str, dict[str, None]] = {
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
     "svg": {"Date": None, "Creator": None},
 }
+_FINER = 4  # times: the grid that lines of equal value are drawn on
 _MOST_POINTS = 50_000  # of one line: more than any picture shows, and more than Agg always takes
 
 
@@ -94,6 +95,21 @@ def outline(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     low, high = np.minimum.reduceat(y, starts), np.maximum.reduceat(y, starts)
     drawn = np.column_stack([low, high]).ravel()
     return np.repeat(x[starts], 2), drawn
+
+
+def contours(ax: Axes, x: FloatArray, y: FloatArray, z: FloatArray) -> None:
+    """Lines of equal value of the cubic spline through all points: white, edged, labelled."""
+    from matplotlib.patheffects import withStroke
+    from scipy.interpolate import RectBivariateSpline
+
+    orders = {"kx": min(3, y.size - 1), "ky": min(3, x.size - 1)}
+    spline = RectBivariateSpline(y, x, z, **orders)
+    fine = [np.interp(np.arange(_FINER * (v.size - 1) + 1) / _FINER, np.arange(v.size), v)
+            for v in (x, y)]  # fmt: skip
+    lines = ax.contour(*fine, spline(fine[1], fine[0]), levels=6, colors="white", linewidths=0.7)
+    lines.set_path_effects([withStroke(linewidth=1.5, foreground="#00000080")])
+    for label in ax.clabel(lines, fontsize="x-small", fmt="%.3g"):
+        label.set_path_effects([withStroke(linewidth=1.5, foreground="#202020")])
 
 
 def picture_format(path: str | Path) -> str:

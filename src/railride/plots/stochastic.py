@@ -27,7 +27,6 @@ VALUES = {
 }
 WEIGHTED = "a_wrms [m/s^2]"
 MOST_LINES = 8  # that colours still tell apart
-_FINER = 4  # times: the grid that lines of equal value are drawn on
 
 
 def plot_comfort_along(
@@ -77,27 +76,12 @@ def plot_comfort_map(table: pd.DataFrame, *, value: str = WEIGHTED, ax: Axes | N
     if figure is not None:
         bar = figure.colorbar(mesh, ax=ax, pad=0.02)
         bar.set_label(VALUES[value])
-    _contours(ax, speeds, places, z)
+    canvas.contours(ax, speeds, places, z)
     ax.set_title(_title(table, value), **canvas.TITLE)
     ax.set_xlabel("speed [km/h]")
     ax.set_ylabel("position on the floor,\nforward of the middle [m]")
     ax.spines[["top", "right"]].set_visible(False)
     return ax
-
-
-def _contours(ax: Axes, x: FloatArray, y: FloatArray, z: FloatArray) -> None:
-    """Lines of equal value of the cubic spline through all points: white, edged, labelled."""
-    from matplotlib.patheffects import withStroke
-    from scipy.interpolate import RectBivariateSpline
-
-    orders = {"kx": min(3, y.size - 1), "ky": min(3, x.size - 1)}
-    spline = RectBivariateSpline(y, x, z, **orders)
-    fine = [np.interp(np.arange(_FINER * (v.size - 1) + 1) / _FINER, np.arange(v.size), v)
-            for v in (x, y)]  # fmt: skip
-    lines = ax.contour(*fine, spline(fine[1], fine[0]), levels=6, colors="white", linewidths=0.7)
-    lines.set_path_effects([withStroke(linewidth=1.5, foreground="#00000080")])
-    for label in ax.clabel(lines, fontsize="x-small", fmt="%.3g"):
-        label.set_path_effects([withStroke(linewidth=1.5, foreground="#202020")])
 
 
 def _title(table: pd.DataFrame, value: str, *more: str) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from railride.bodies.base import FLOORS
+from railride.designs import RESULTS
 from railride.errors import InputError
 from railride.files import there
 from railride.spectra import Spectrum, is_file, spectrum_names
@@ -17,8 +18,6 @@ from railride.trackfile import load_track
 from railride.weightings import weighting
 
 T = TypeVar("T")
-
-RESULTS = ("a_wrms", "a_rms", "wz", "travel", "wheel_loads", "modes", "static")
 
 
 @dataclass(frozen=True)

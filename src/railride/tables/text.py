@@ -143,12 +143,12 @@ class _Body:
             skipinitialspace=True,
             skip_blank_lines=False,
             low_memory=False,
-            **_exact(pd.__version__),
+            **exactly(pd.__version__),
             **options,
         )
 
 
-def _exact(version: str) -> dict[str, Any]:
+def exactly(version: str) -> dict[str, Any]:
     """Option by which pandas reads a number to its last bit; from 3.1 on it does so unasked."""
     older = tuple(int(part) for part in version.split(".")[:2]) < (3, 1)
     return {"float_precision": "round_trip"} if older else {}

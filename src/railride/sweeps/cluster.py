@@ -1,0 +1,62 @@
+"""A Dask cluster as an executor."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from typing import Any
+
+from railride.errors import InputError
+
+PATIENCE = 5  # s, for a scheduler that does not answer, and for its first worker
+
+
+@contextlib.contextmanager
+def cluster(address: str) -> Iterator[tuple[Executor, int]]:
+    """An executor of the cluster of a Dask scheduler, and how many tasks it works on at a time.
+
+    address : as the scheduler prints it, ``tcp://host:8786``.
+
+    Raises
+    ------
+    InputError : Dask is not installed; no scheduler answers; it has no workers.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError("--scheduler: found no library for it; expected Dask "
+                         "(pip install 'railride[distributed]')") from None  # fmt: skip
+    where = f"--scheduler {address!r}"
+    _check_answer(address, where)
+    with Client(address, timeout=PATIENCE, set_as_default=False) as client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise InputError(f"{where}: found a scheduler without workers; expected at least one "
+                             f"(start it: dask worker {address})") from None  # fmt: skip
+        yield client.get_executor(pure=False), sum(client.nthreads().values())
+
+
+def _check_answer(address: str, where: str) -> None:
+    """Refuse an address at which no scheduler answers: a client would wait for it for ever."""
+    from distributed import rpc
+
+    async def ask() -> Any:
+        async with rpc(address, timeout=PATIENCE) as other:
+            return await asyncio.wait_for(other.identity(), PATIENCE)
+
+    try:
+        with ThreadPoolExecutor(1) as thread:  # whoever calls may have an event loop of its own
+            found = thread.submit(asyncio.run, ask()).result()
+    except Exception as error:  # noqa: BLE001 - whatever speaks there may say anything
+        reason = " ".join(str(error).split())[:120] or f"none within {PATIENCE} s"
+        raise InputError(
+            f"{where}: found no answer ({reason}); expected the address of a Dask scheduler that "
+            "is running, tcp://host:8786 (dask scheduler prints it)"
+        ) from None
+    kind = found.get("type") if isinstance(found, dict) else None
+    if kind != "Scheduler":
+        raise InputError(f"{where}: found a {kind or 'program of another kind'}; expected a Dask "
+                         "scheduler (give its address, not a worker's)")  # fmt: skip

@@ -1,0 +1,242 @@
+"""A sweep: every design of a study evaluated, the results written as they come."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+from railride.errors import InputError
+from railride.stochastic import track_spectrum
+from railride.studies import Study
+from railride.sweeps.cluster import cluster
+from railride.sweeps.flight import Flight
+from railride.sweeps.lock import locked
+from railride.sweeps.manifest import Manifest, keys_of, read_manifest, refuse_another
+from railride.sweeps.pool import InProcess, LocalPool
+from railride.sweeps.result import SweepResult, sweep_result
+from railride.sweeps.settings import SweepSettings, read_sweep_study
+from railride.sweeps.store import Store, check_form, parts_in, refuse_foreign, usual_form
+from railride.sweeps.worker import Columns, Recipe, evaluate, headings
+
+PER_WORKER = 2  # chunks in flight: one at work, one waiting
+
+Progress = Callable[[int, int], Any]
+
+
+def sweep(
+    study: Study | str | Path,
+    folder: str | Path,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    replace: bool = False,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Evaluate every design of a study; the results go into a folder, a part at a time.
+
+    What is finished stays, whatever ends it: called again, it goes on where it stopped. Scripts
+    that call it need ``if __name__ == "__main__":``, since the processes import them again.
+
+    Parameters
+    ----------
+    study : with the section ``[sweep]``; or its name or file (see ``docs/study-files.md``).
+    folder : of the results; made if it is not there. Parquet files, or CSV where pyarrow is missing
+        or the study asks for it; :func:`read_sweep` reads them.
+    executor : where designs are evaluated, any of ``concurrent.futures``; default processes of
+        this machine, or this one where there is a single part.
+    workers : how many processes, default one for each core; of an executor, how many tasks it works
+        on at a time.
+    scheduler : address of a Dask scheduler, in place of them (extra ``railride[distributed]``).
+    replace : throw away what the folder holds of another study, or of this one before it was
+        changed, instead of refusing it.
+    progress : called with how many designs are done, and of how many.
+
+    Returns
+    -------
+    result : where the results are, how many designs are done, the best of them, and what to know.
+
+    Raises
+    ------
+    InputError : a study file with faults; a folder with something else in it, or in which another
+        sweep writes; a changed study, unless ``replace``; a disk that is, or would become, full; a
+        scheduler that does not answer; designs that kill their workers.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     found = sweep("sweep_grid", folder)
+    >>> found.designs, found.done
+    (567, 567)
+    """
+    if not isinstance(study, Study):
+        study = read_sweep_study(study)
+    settings = study.settings.get("sweep")
+    if not isinstance(settings, SweepSettings):
+        raise InputError(f"{study.path}: found no designs; expected a study with [sweep] read "
+                         "(railride.sweeps.read_sweep_study)")  # fmt: skip
+    if (executor is not None) + (scheduler is not None) > 1:
+        raise InputError("sweep: found an executor and a scheduler; expected one of them")
+    if workers is not None and workers < 1:
+        raise InputError(f"workers: found {workers}; expected at least 1")
+    place = _made(Path(folder))
+    with locked(place):
+        recipe, said = _prepared(study)
+        manifest = _manifest(study, settings, recipe)
+        store, thrown = _opened(place, manifest, settings.form, replace)
+        done, damaged = store.done()
+        task = _Task(store, settings, recipe, done, progress)
+        store.refuse_overflow(len(task.left))
+        with _executors(executor, workers, scheduler, len(task.left)) as (first, start, window):
+            task.run(first, start, window)
+        return sweep_result(place, store.of, task.new, [*said, *thrown, *damaged])
+
+
+@dataclass
+class _Task:
+    """Chunks that are left, through an executor into the store."""
+
+    store: Store
+    settings: SweepSettings
+    recipe: Recipe
+    done: set[int]
+    progress: Progress | None
+
+    def __post_init__(self) -> None:
+        self.left = [chunk for chunk in range(self.store.chunks) if chunk not in self.done]
+        self.new = 0
+        self._tell()
+
+    def run(self, executor: Executor, start: Callable[[], Executor] | None, window: int) -> None:
+        """Evaluate what is left; a pool that was started here is ended."""
+        flight = Flight(executor, start, self._send, self._name, window)
+        finished = False
+        try:
+            for chunk, columns in flight.results(self.left):
+                self.store.write(chunk, self._parameters(chunk) | columns)
+                self.done.add(chunk)
+                self.new += self._count(chunk)
+                self._tell()
+            finished = True
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(self._so_far()) from None
+        except InputError as error:
+            raise InputError(f"{error}\n{self._so_far()}") from None
+        finally:
+            flight.cancel()
+            if start is not None:
+                flight.executor.shutdown(wait=finished, cancel_futures=True)
+
+    def _send(self, executor: Executor, chunk: int) -> Future[Columns]:
+        designs = self.settings.plan.designs(*self.store.span(chunk))
+        return executor.submit(evaluate, self.recipe, designs)
+
+    def _parameters(self, chunk: int) -> Columns:
+        designs = self.settings.plan.designs(*self.store.span(chunk))
+        return {p.heading: designs[p.symbol] for p in self.settings.plan.parameters}
+
+    def _count(self, chunk: int) -> int:
+        start, stop = self.store.span(chunk)
+        return stop - start
+
+    def _name(self, chunk: int) -> str:
+        start, stop = self.store.span(chunk)
+        return f"designs {start + 1} to {stop}"
+
+    def _tell(self) -> None:
+        if self.progress is not None:
+            self.progress(sum(map(self._count, self.done)), self.store.of.designs)
+
+    def _so_far(self) -> str:
+        there = len(parts_in(self.store.folder))
+        return (f"{there} of {self.store.chunks} parts are done and kept in "
+                f"{str(self.store.folder)!r}; the same command goes on from there")  # fmt: skip
+
+
+def _made(folder: Path) -> Path:
+    """The folder, made if it is not there."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{str(folder)!r}: found {reason}; expected a folder that can be made or "
+                         "is there (choose another)") from None  # fmt: skip
+    return folder
+
+
+def _prepared(study: Study) -> tuple[Recipe, list[str]]:
+    """What workers need, the tracks as spectra; and what to know of the results."""
+    model, ride = study.model(), study.ride
+    spectra = [track_spectrum(track, ride.speeds) for track in ride.tracks]
+    said = [*model.vehicle.remarks, *model.remarks, *(r for _, remarks in spectra for r in remarks)]
+    ride = replace(ride, tracks=tuple(spectrum for spectrum, _ in spectra))
+    return Recipe(uuid4().hex, study.vehicle, study.body, ride), said
+
+
+def _manifest(study: Study, settings: SweepSettings, recipe: Recipe) -> Manifest:
+    """What the results will be of; the first design says which columns there are."""
+    plan = settings.plan
+    return Manifest(
+        study=study.name,
+        keys=keys_of(study, plan),
+        parameters=[p.heading for p in plan.parameters],
+        columns=headings(recipe, study.model(), plan.designs(0, 1)),
+        designs=plan.total,
+        chunk=settings.chunk,
+        form=settings.form or usual_form(),
+    )
+
+
+def _opened(
+    folder: Path, asked: Manifest, form: str | None, change: bool
+) -> tuple[Store, list[str]]:
+    """The store of the sweep, begun or gone on with; and what to know of it.
+
+    form : "parquet" or "csv" where it was asked for. change : throw away what is of another study.
+    """
+    before = read_manifest(folder)
+    if before is not None and form is None:  # go on as it was begun
+        asked = replace(asked, form=before.form)
+    store = Store(folder, asked)
+    check_form(asked.form)
+    differences = [] if before is None else asked.differences(before)
+    if before is None:
+        refuse_foreign(folder)
+    elif differences and not change:
+        refuse_another(folder, differences)
+    elif not differences:
+        return store, []
+    else:
+        refuse_foreign(folder, Store(folder, before))
+    earlier = parts_in(folder)
+    store.refuse_overflow(store.chunks, freed=sum(path.stat().st_size for path in earlier))
+    store.clear()  # before the manifest changes, so that no part is taken for one of this sweep
+    asked.write(folder)
+    thrown = f"{len(earlier)} parts of {before.study!r} were thrown away" if before else ""
+    return store, [thrown] if earlier else []
+
+
+@contextlib.contextmanager
+def _executors(
+    executor: Executor | None, workers: int | None, scheduler: str | None, left: int
+) -> Iterator[tuple[Executor, Callable[[], Executor] | None, int]]:
+    """An executor, what starts another in its place, and how many chunks may be in flight."""
+    count = workers or os.cpu_count() or 1
+    if executor is not None:
+        yield executor, None, PER_WORKER * count
+    elif scheduler is not None and left:
+        with cluster(scheduler) as (found, tasks):
+            yield found, None, PER_WORKER * tasks
+    elif left <= 1:
+        yield InProcess(), None, 1
+    else:
+        start = partial(LocalPool, min(count, left))
+        yield start(), start, PER_WORKER * min(count, left)
