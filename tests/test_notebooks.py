@@ -101,6 +101,16 @@ def test_the_paper_and_the_free_body_in_the_derivation():
     assert "is 4 times that of Eq (4)" in text
 
 
+def test_checked_values_from_two_halves_to_the_beam():
+    """Order and errors of free-free chains, exact values: each of independent programs."""
+    text = "\n".join(in_text(read(FOLDER / "02_from_two_halves_to_the_beam.ipynb")))
+    assert "order 4.1, 4.2, 4.2 for rods and 2.0, 2.0, 2.1 for masses in the middles" in text
+    assert "first bending frequency to 0.3% and the second to 3.9%" in text
+    assert "- 2 segments: polygon 0.2475 m/s² (+38.9%)" in text
+    assert "- 3 segments: polygon 0.1485 m/s² (-16.6%)" in text
+    assert "(as the paper), 200 km/h: from 0.3275 to 0.2192 m/s²" in text
+
+
 def test_checked_values_of_the_frequency_response():
     """Zeros by hand, (k + 1/2) 55.56/17.5 and /2.5 Hz; exact values of independent programs."""
     text = "\n".join(in_text(read(FOLDER / "04_frequency_response.ipynb")))
