@@ -13,7 +13,7 @@ from railride.lagrange import Signal
 
 GREEK = ("theta", "zeta", "mu", "ell", "eta", "phi", "kappa", "rho", "alpha", "beta")
 BRACED = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}"  # with at most one pair inside
-LINE = 78  # characters of mathematics that fit on a line, commands counted as one
+LINE = 74  # characters of mathematics that fit on a line, commands counted as one
 
 
 class Printer(LatexPrinter):

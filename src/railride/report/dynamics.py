@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import sympy as sp
 
+from railride.bodies.segments import SegmentedBody
 from railride.lagrange import Coordinate, Signal
 from railride.markup import (
     Block,
@@ -28,7 +29,7 @@ def energies(subject: Subject) -> list[Block]:
     system, order = subject.system, list(subject.values)
     kinds = (("Kinetic energy", "T", system.kinetic), ("Potential energy", "V", system.potential),
              ("Rayleigh's dissipation function", "D", system.dissipation))  # fmt: skip
-    blocks: list[Block] = [Heading("Energies and virtual work")]
+    blocks: list[Block] = [Heading("Energies and virtual work"), *_each_segment(subject)]
     for name, letter, u in kinds:
         blocks += [Paragraph(f"{name}:"), Equation(grouped_lines(letter, u, order))]
     if system.virtual_work:
@@ -38,6 +39,21 @@ def energies(subject: Subject) -> list[Block]:
         blocks.append(Paragraph(r"No further force does work, $\delta W = 0$."))
     return [*blocks, Paragraph("Lagrange's equations, one for each coordinate:"),
             Equation(LAGRANGE)]  # fmt: skip
+
+
+def _each_segment(subject: Subject) -> list[Block]:
+    """Mass, length and inertia of the segments, where all are alike."""
+    body = subject.model.body
+    if not isinstance(body, SegmentedBody):
+        return []
+    segments = range(1, body.number + 1)
+    kinds = {(*body.masses.moments(i), body.cuts.ell(i)) for i in segments}
+    m, S, J, length = next(iter(kinds))
+    if len(kinds) > 1 or S != 0:
+        return []
+    return [Paragraph(f"Each segment has the mass ${math(m)}$, the length ${math(length)}$ and, "
+                      f"about its middle, the pitch inertia ${math(J)}$: the kinetic energy is "
+                      r"that of $\dot{\vec r}_i$ and $\dot\theta_i$.")]  # fmt: skip
 
 
 def nonlinear(subject: Subject, parts: Resultants) -> list[Block]:

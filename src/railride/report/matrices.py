@@ -20,7 +20,7 @@ from railride.markup import (
     width,
 )
 
-WIDEST = 110  # characters across a matrix that is shown whole
+WIDEST = 80  # characters across a matrix that is shown whole
 PRINTED_WHOLE = 64  # entries beyond which it is not
 
 
@@ -107,10 +107,10 @@ def _wide(latex: str) -> int:
     inner = re.compile(r"\\begin\{bmatrix\}((?:(?!\\begin).)*?)\\end\{bmatrix\}")
 
     def longest(match: re.Match[str]) -> str:
-        rows = (row.replace("&", "xx") for row in match.group(1).split(r"\\"))
-        return f"[{max(rows, key=width)}]"
+        rows = (row.replace("&", "xxx") for row in match.group(1).split(r"\\"))
+        return f"[x{max(rows, key=width)}x]"
 
-    return width(inner.sub(longest, latex))
+    return width(inner.sub(longest, latex.replace(r"\qquad", "xxxx")))
 
 
 def _runs(entries: Sequence[sp.Expr]) -> str:

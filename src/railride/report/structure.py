@@ -159,21 +159,27 @@ class Parts:
                          rf"e = {math(-e)}")]  # fmt: skip
 
     def _products(self, n: int) -> list[Block]:
-        """What the suspensions add to the car body's own matrices, written out."""
+        """What the suspensions add to the car body's own matrices, where it is not 0."""
         if self.model.body.segments is None:  # of modes all entries are full
             return []
-        links = self.coefficients("K")
-        by = {k: [u for u in links if links[u] == k] for k in links.values()}
-        blocks: list[Block] = []
-        for together in by.values():
-            columns = [self.gradients[u][:n, :] for u in together]
-            total = sum((h * h.T for h in columns), sp.zeros(n, n)).applyfunc(sp.factor)
-            factor, rest = common(sp.S.One, sp.ImmutableSparseMatrix(total))
-            if fits(rest) and not total.atoms(sp.Float):
-                left = " + ".join(f"{_h(u)} {_h(u)}^T" for u in together)
-                head = f"{left} = {math(factor)}" if factor != 1 else f"{left} ="
-                blocks.append(Equation(f"{head} {math(rest.as_explicit())}"))
-        return blocks
+        parts: dict[tuple[int, ...], list[Coordinate]] = {}
+        for u in self.gradients:
+            h = self.gradients[u]
+            parts.setdefault(tuple(i for i in range(n) if h[i] != 0), []).append(u)
+        equations = []
+        for places, together in parts.items():
+            columns = [self.gradients[u].extract(list(places), [0]) for u in together]
+            total = sum((h * h.T for h in columns), sp.zeros(len(places), len(places)))
+            left = " + ".join(f"{_h(u)} {_h(u)}^T" for u in together)
+            at = listed([self.linear.coordinates[i] for i in places])
+            factor, rest = common(sp.S.One, total.applyfunc(sp.factor))
+            head = rf"\left({left}\right)_{{{at}}} ="
+            head += f" {math(factor)}" if factor != 1 else ""
+            equations.append(Equation(f"{head} {math(rest)}"))
+        few = (
+            "whose products are, in the rows and columns of the coordinates named and 0 elsewhere,"
+        )
+        return [Paragraph(few), *side_by_side(equations)]
 
     def _square(self, letter: str) -> list[Block]:
         """M, C or K: its blocks under their names, then each block."""
