@@ -3,11 +3,13 @@
 import csv
 import io
 import json
+from pathlib import Path
 
 import pytest
 
 from railride import load_vehicle
 from railride.files import data_path
+from railride.optimisation import KINDS
 
 STUDY = """
 vehicle = "cati2024"
@@ -179,3 +181,11 @@ def test_files_of_its_own_are_not_written_over(run, study):
 def test_shipped_studies_are_there():
     for name in ("optimise", "pareto"):
         assert f"railride optimise {name}" in data_path("studies", f"{name}.toml").read_text()
+
+
+def test_every_key_is_documented(run, study):
+    text = (Path(__file__).parents[1] / "docs" / "study-files.md").read_text(encoding="utf-8")
+    own = text.partition("## `[optimise]`")[2]
+    for key in (*KINDS, "distance", "weights", "starts", "seed", "against", "points",
+                *document(run, study())):  # fmt: skip
+        assert f"`{key}`" in own, key

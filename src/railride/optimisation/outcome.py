@@ -13,6 +13,7 @@ from railride.optimisation.solve import Solved
 from railride.stochastic.ride import STATED
 
 BINDS = 1e-6  # multiplier: a limit that is worth less to the goal does not hold it
+BENDING = ("f_", "EI", "k_theta", "c_theta", "zeta_", "alpha_R", "beta_R")  # what is held, or damps
 NO_EFFECT = 1e-12  # relative change of everything over a parameter's whole range
 
 
@@ -98,7 +99,8 @@ def _notes(problem: Problem, best: Descent, own: Design | None) -> list[str]:
         said.append("the vehicle as it is has no stationary ride: there is nothing to compare with")
     tangent = problem.evaluate.measures.derivatives.at(**best.design.parameters)
     of_body = {p.symbol.name for p in tangent.derivatives.model.body.parameters}
-    if tangent.held and of_body & set(best.design.parameters):
+    moved = [name for name in of_body & set(best.design.parameters) if not name.startswith(BENDING)]
+    if tangent.held and moved:
         said.append(f"the car body's {tangent.held} is held while its other parameters change")
     if tangent.by_differences:
         said.append(f"gradients through {', '.join(tangent.by_differences)} are differences of "
@@ -113,6 +115,6 @@ def _notes(problem: Problem, best: Descent, own: Design | None) -> list[str]:
         if abs(best.at_bounds[k]) > BINDS:
             side = "lower" if best.at_bounds[k] > 0 else "upper"
             said.append(f"{variable.name} ends at its {side} bound, "
-                        f"{best.design.parameters[variable.symbol]:.6g} {variable.unit}: a wider "
-                        "range would give more comfort")  # fmt: skip
+                        f"{best.design.parameters[variable.symbol]:.6g} {variable.unit}".rstrip()
+                        + ": a wider range would give more comfort")  # fmt: skip
     return said
