@@ -206,6 +206,118 @@ def synthesise(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
+def designs(step: Callable[[], None]) -> dict[str, Any]:
+    """Designs of the suspension at two speeds, N = 4, at once and in a plain loop."""
+    found = worker("designs", STUDIES)
+    step()
+    own = median(found["own"]) / found["designs"]
+    peer = median(found["peer"])
+    return entry(
+        "designs",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="evaluate_designs of 5000 suspensions, from parameters to the table of a_wrms at "
+        "145 and 200 km/h, wall time of one design",
+        peer="for each design and speed: build, control.forced_response of vehicle and weighting "
+        "in series, 1 km at 1 kHz and 250 m of run-in, r.m.s.; wall time of one design",
+        designs_a_second=1 / own,
+        with_travel_and_modes_a_second=found["designs"] / median(found["all"]),
+        measured_track_a_second=found["measured_designs"] / median(found["measured"]),
+        peer_scatter=found["peer_ratio"],
+        targets=[
+            at_least("designs a second, at two speeds", 1 / own, 5000),
+            at_least("times faster", peer / own, 800),
+        ],
+    )
+
+
+def gradient(step: Callable[[], None]) -> dict[str, Any]:
+    """a_wrms at two speeds with its gradient over 12 parameters, and alone, by quadrature."""
+    found = worker("gradient", STUDIES)
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "gradient",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="Derivatives.at and mean_squares_with_gradient, 12 parameters, two speeds, wall "
+        "time",
+        peer="matrices and process().integrals(), the value alone by the same quadrature, wall "
+        "time",
+        parameters=found["parameters"],
+        targets=[
+            at_most("times the value's time", own / peer, 3),
+            at_most("largest difference of the values, relative", found["difference"], 1e-12),
+        ],
+    )
+
+
+def sweep(step: Callable[[], None]) -> dict[str, Any]:
+    """A sweep of 40,000 designs in one and in two processes, between two busy loops."""
+    found = worker("sweep", STUDIES)
+    step()
+    own, peer = median(found["both"]), median(found["alone"])
+    loops = 2 * median(found["loop_alone"]) / median(found["loop_both"])
+    return entry(
+        "sweep",
+        own,
+        peer,
+        rounds=len(found["both"]),
+        railride="railride.sweep, two processes, from the first part on disk to the last",
+        peer="the same with one process",
+        designs=found["designs"],
+        gain_of_busy_loops=loops,
+        targets=[at_least("gain of two processes, of two busy loops'", peer / own / loops, 0.9)],
+    )
+
+
+def million(step: Callable[[], None]) -> dict[str, Any]:
+    """10⁶ designs from the study file to Parquet, all processors."""
+    found = worker("million", STUDIES)
+    step()
+    each = found["whole"] / found["designs"]
+    return entry(
+        "million",
+        found["whole"],
+        found["designs"] / 5000,
+        rounds=1,
+        railride="railride.sweep of 10⁶ samples, one process for each core, wall time of the whole",
+        peer="the time that 5,000 designs a second would take",
+        workers=found["workers"],
+        bytes_a_design=found["bytes"] / found["designs"],
+        hours_of_a_core_for_1e8=1e8 * each * found["workers"] / 3600,
+        targets=[
+            at_most("peak memory of the coordinator, MB", found["peak"] / 1e6, 1000),
+            at_most("peak memory of a process, MB", found["worker_peak"] / 1e6, 1000),
+        ],
+    )
+
+
+def optimise(step: Callable[[], None]) -> dict[str, Any]:
+    """The best (k_2, c_2, c_1) of the paper's coach at two speeds, N = 4."""
+    found = worker("optimise", STUDIES)
+    step()
+    own, peer = median(found["own"]), median(found["peer"])
+    return entry(
+        "optimise",
+        own,
+        peer,
+        rounds=len(found["own"]),
+        railride="railride.optimise, model in hand, derivatives prepared anew, wall time",
+        peer="scipy.optimize.minimize by Powell's method on evaluate_designs, without gradients, "
+        "wall time",
+        a_wrms=found["a_wrms"],
+        peer_a_wrms=found["peer_a_wrms"],
+        targets=[
+            at_most("time, s", own, 2),
+            at_most("a_wrms over the peer's", found["a_wrms"] / found["peer_a_wrms"], 1.0001),
+        ],
+    )
+
+
+STUDIES = "study_workers.py"
 DERIVE_ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
 
 CASES: dict[str, tuple[Case, int]] = {
@@ -217,6 +329,11 @@ CASES: dict[str, tuple[Case, int]] = {
     "frequency": (frequency, 1),
     "comfort": (comfort, 1),
     "synthesise": (synthesise, 1),
+    "designs": (designs, 1),
+    "gradient": (gradient, 1),
+    "sweep": (sweep, 1),
+    "million": (million, 1),
+    "optimise": (optimise, 1),
 }
 """Name to the case and the number of its steps."""
 

@@ -68,12 +68,12 @@ def run(*arguments: str) -> Usage:
     return Usage(wall, used.ru_utime + used.ru_stime, float(used.ru_maxrss * unit), text)
 
 
-def worker(name: str) -> dict[str, Any]:
-    """What ``workers.py NAME`` measured inside itself, in a process of its own, and its ``peak``.
+def worker(name: str, file: str = "workers.py") -> dict[str, Any]:
+    """What ``python FILE NAME`` measured inside itself, in a process of its own, and its ``peak``.
 
     That is the peak memory of the whole process, in bytes.
     """
-    usage = run(str(ROOT / "benchmarks" / "workers.py"), name)
+    usage = run(str(ROOT / "benchmarks" / file), name)
     result: dict[str, Any] = json.loads(usage.output)
     return result | {"peak": usage.peak}
 
