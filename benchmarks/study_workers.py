@@ -1,7 +1,7 @@
 """Design studies, timed inside a process of their own: ``python study_workers.py NAME``.
 
-As ``workers.py``, which see; these are the paper's coach, N = 4, at the paper's two speeds over ERRI
-low, read at the floor's middle.
+As ``workers.py``, which see; these are the paper's coach, N = 4, at the paper's two speeds over
+ERRI low, read at the floor's middle.
 """
 
 from __future__ import annotations
