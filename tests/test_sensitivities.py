@@ -8,8 +8,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from vehicles import paper_coach, random_model
 
+from railride.bodies import slender_beam
 from railride.errors import InputError
 from railride.firstorder import first_order
 from railride.modal import modes
@@ -371,6 +373,20 @@ def test_an_undamped_mode_that_is_felt_is_refused():
     here = Derivatives(paper_coach(1), ["k_2"]).at(c_2=0.0, c_1=0.0)
     with pytest.raises(InputError, match="without damping"):
         mean_squares_with_gradient(here, here.floor([0.0]), 40.0, LOW)
+
+
+def test_an_undamped_mode_that_a_change_would_wake_is_refused():
+    """Bogies at the nodes of bending 2 do not excite it: 4 m off the middle it has no part yet."""
+    node = brentq(lambda x: float(slender_beam.shapes(2, x / 24)[1]), 8.0, 10.0, xtol=1e-14)
+    model = derive_vehicle("cati2024", body="beam", modes=2)
+    here = Derivatives(model, ["k_2", "l_b"]).at(l_b=node)
+    middle, _ = mean_squares_with_gradient(here, here.floor([0.0]), 40.0, LOW)
+    assert middle > 0
+    with pytest.raises(InputError, match="as soon as l_b changes"):
+        mean_squares_with_gradient(here, here.floor([4.0]), 40.0, LOW)
+    still = Derivatives(model, ["k_2"]).at(l_b=node)
+    J, dJ = mean_squares_with_gradient(still, still.floor([4.0]), 40.0, LOW)
+    assert np.isfinite(dJ / J).all()
 
 
 def test_critical_damping_has_no_derivative():

@@ -43,6 +43,7 @@ from railride.stochastic.quadrature import gauss_points
 Complex = NDArray[np.complex128]
 
 ROWS = ("d", "v", "a", "w", "dw", "ddw")
+_NEAR, _FELT = 1e-7, 1e-6  # of an undamped mode's frequency, and of the mean square
 _TOGETHER = 1000  # frequencies at a time: what the processor keeps close by
 
 
@@ -70,7 +71,8 @@ def mean_squares_with_gradient(
 
     Raises
     ------
-    InputError : as :func:`railride.stochastic.process`; an undamped mode that is felt.
+    InputError : as :func:`railride.stochastic.process`; an undamped mode that is felt, or would be
+        as soon as a parameter moves.
 
     Examples
     --------
@@ -93,6 +95,7 @@ def mean_squares_with_gradient(
                     form=form)  # fmt: skip
         form = p.form
         gathered = _gathered(p, outputs, refined)
+        _refuse_singular(p, at, outputs, gathered.squares)
         found.append((gathered.squares, _contracted(gathered, at, outputs, speed)))
     values, gradients = zip(*found, strict=True)
     return np.stack(values), np.stack(gradients)
@@ -172,6 +175,28 @@ def _adjoint(p: Process, outputs: int, s: Complex) -> Complex:
     right = np.ascontiguousarray(np.moveaxis(right, 0, 1)).reshape(-1, outputs * s.size)
     lam = p.form.right.T @ p.form.adjoint(np.tile(s, outputs), right)
     return np.moveaxis(lam.reshape(-1, outputs, s.size), 0, 1)
+
+
+def _refuse_singular(p: Process, at: Tangent, outputs: Rows, squares: Array) -> None:
+    """Refuse undamped modes that take part in an output as soon as a parameter moves.
+
+    The gradient's integrand is then infinite at their frequency, as 1/(f - f_0).
+    """
+    size = np.array([abs(float(at.values[name])) or 1.0 for name in at.parameters])
+    for f in p.undamped().tolist():
+        near, far = (
+            size * np.abs(_contracted(_integrals(p, outputs, np.array([x]), np.ones(1))[0], at,
+                                      outputs, p.speed))
+            for x in (f * (1 + _NEAR), f * (1 + 100 * _NEAR))
+        )  # fmt: skip
+        grows = (near > 10 * far) & (near * _NEAR * f > _FELT * squares[..., np.newaxis])
+        if p.edges[0] < f < p.edges[-1] and grows.any():
+            k = int(np.argmax(grows.any(axis=(0, 1))))
+            raise InputError(
+                f"vehicle: found a mode without damping ({f:.4g} Hz) that takes part in the motion "
+                f"asked for as soon as {at.parameters[k]} changes: there is no gradient; expected "
+                "a damping ratio above 0 (give the dampers, or the body, a damping above 0)"
+            )
 
 
 def _contracted(g: _Gathered, at: Tangent, outputs: Rows, speed: float) -> Array:

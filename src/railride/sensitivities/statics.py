@@ -3,20 +3,17 @@ r"""How far the suspensions are pressed together by the weight, and the gradient
 .. math:: K q = -g\, M u_0, \qquad
           K\,dq = -g\, dM\, u_0 - dK\, q, \qquad y = Y q, \quad dy = dY\, q + Y\, dq
 
-u₀ is a uniform lift: M u₀ is what of the mass each coordinate carries. The track is level; what
-rests on the dampers alone has crept away.
-
-Source: the equations of motion at rest, :mod:`railride.linear`.
+as :mod:`railride.designs.statics`.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from railride.designs.rides import suspensions
+from railride.designs.statics import GRAVITY
 from railride.numeric import Array
 from railride.sensitivities.derivatives import Tangent
-
-GRAVITY = 9.80665  # m/s², standard acceleration of free fall: 3rd CGPM, 1901
 
 
 def static_deflections_with_gradient(at: Tangent) -> tuple[dict[str, float], Array]:
@@ -39,10 +36,7 @@ def static_deflections_with_gradient(at: Tangent) -> tuple[dict[str, float], Arr
     >>> round(found["secondary_1_deflection"], 4), slopes[0].round(9).tolist()  # -m_c g/(2 k_2)
     (-0.2223, [2.96e-07])
     """
-    outputs = [
-        output for name, output in at.derivatives.model.outputs.items()
-        if name.endswith("_deflection") and name.startswith(("secondary_", "primary_"))
-    ]  # fmt: skip
+    outputs = suspensions(at.derivatives.model)
     found, m = at.rows(outputs), at.m
     Y, dY = found.rows["d"], found.slopes["d"]
     weight = -GRAVITY * np.column_stack([m.M @ m.lift, *(at.dm["M"] @ m.lift)])
