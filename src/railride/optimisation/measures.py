@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from railride.designs.given import Cases
+from railride.designs.statics import GRAVITY
 from railride.errors import InputError
 from railride.numeric import Array
 from railride.optimisation.cases import cases_named, run_name, runs
@@ -32,7 +33,6 @@ from railride.sensitivities import (
     roots_with_gradient,
     static_deflections_with_gradient,
 )
-from railride.sensitivities.statics import GRAVITY
 from railride.stochastic.extremes import (
     DISTANCE,
     EULER,

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 
 from railride.designs import DesignValues, evaluate_designs
+from railride.designs.statics import GRAVITY
 from railride.numeric import Array
 from railride.optimisation.limits import Limit
 from railride.optimisation.problem import Problem
 from railride.optimisation.solve import Progress
-from railride.sensitivities.statics import GRAVITY
 from railride.vehicle import VehicleModel
 
 POPULATION = 12  # designs for every parameter
