@@ -13,11 +13,12 @@ from vehicles import paper_coach, random_model, random_vehicle
 from railride import designs as package
 from railride.designs import evaluate_designs
 from railride.errors import InputError
+from railride.firstorder import first_order
 from railride.frequency import track_response
 from railride.modal import modes
 from railride.parameters import load_vehicle
 from railride.spectra import spectrum
-from railride.stochastic import output_statistics, stochastic_ride
+from railride.stochastic import output_statistics, squares, stochastic_ride
 from railride.vehicle import derive_vehicle
 
 KMH = 1 / 3.6
@@ -72,6 +73,15 @@ def test_wheelsets_that_move_are_reached_where_they_are():
             for made, changes in ((built, {}), (model, {"l_b": half, "l_w": axle})):
                 alone = stochastic_ride(made, speed, "erri_low", 3.0, **changes).a_wrms
                 np.testing.assert_allclose(found.a_wrms[d, 0, v], alone, rtol=1e-9)
+
+
+def test_a_floor_that_is_read_by_what_changes():
+    """The points of longer and shorter bodies are elsewhere on their segments."""
+    model = paper_coach(4, bending_damping=0.01)
+    found = evaluate_designs(model, {"L": [22.0, 27.0]}, "erri_low", SPEEDS[0], 5.0)
+    for d, length in enumerate((22.0, 27.0)):
+        alone = stochastic_ride(model, SPEEDS[0], "erri_low", 5.0, L=length).a_wrms
+        np.testing.assert_allclose(found.a_wrms[d, 0, 0], alone, rtol=1e-9)
 
 
 def test_what_is_changed_may_touch_no_matrix():
@@ -211,6 +221,23 @@ def test_modes_keep_their_names_where_frequencies_change_places():
     np.testing.assert_allclose(f["bending 1 natural frequency [Hz]"], 9.6, rtol=0.06)
 
 
+def test_each_eigenvalue_has_one_name_however_far_a_design_is():
+    """All that a design has is among the names but for the second of two reals of one pair."""
+    model, rng = paper_coach(2), np.random.default_rng(6)
+    designs = {name: value * 8 ** rng.uniform(-1, 1, 60) for name, value in SUSPENSION.items()}
+    found = evaluate_designs(model, designs, "erri_low", 40.0, results="modes")
+    for d in range(60):
+        own = {name: values[d] for name, values in designs.items()}
+        roots = np.linalg.eigvals(first_order(model.matrices(**own)).A)
+        left = (np.abs(roots[roots.imag >= 0]) / (2 * np.pi)).tolist()
+        lone = len(left) - len(found.modes)  # more than names: each of a pair that creeps
+        for f in found.natural_frequency[d]:
+            nearest = min(left, key=lambda known, f=f: abs(known - f))
+            assert nearest == pytest.approx(f, rel=1e-5)
+            left.remove(nearest)
+        assert len(left) == lone >= 0
+
+
 def test_a_pair_that_creeps_keeps_its_name():
     """Dampers so strong that the bogies' heave is two real eigenvalues: one goes by its name."""
     found = evaluate_designs(paper_coach(1), {"c_1": [3e4, 2e5]}, "erri_low", 40.0, results="modes")
@@ -254,6 +281,15 @@ def test_one_that_cannot_be_does_not_stop_the_others():
     (remark,) = found.remarks
     assert "4 of 6 designs lack values" in remark
     assert "design 2" in remark
+
+
+def test_unstable_designs_are_not_integrated(monkeypatch):
+    def never(*_, **__):
+        raise AssertionError
+
+    monkeypatch.setattr(squares, "process", never)
+    found = evaluate_designs(paper_coach(1), {"c_2": [7e4, -5e3]}, "erri_low", SPEEDS)
+    assert "unstable" in found.problems[1]
 
 
 def test_all_that_cannot_be():

@@ -93,7 +93,7 @@ class PartialFractions:
 
     def response(self, s: Complex) -> Complex:
         """g at s, (N,), or at each vehicle's own s, (D, N): shape (D, N, outputs, wheelsets)."""
-        found = (1 / (s[..., np.newaxis] - self.poles[:, np.newaxis])) @ self.residues
+        found = np.reciprocal(s[..., np.newaxis] - self.poles[:, np.newaxis]) @ self.residues
         if self.direct.shape[1]:
             found += s[..., np.newaxis] ** np.arange(self.direct.shape[1]) @ self.direct
         return self.apart(found)
