@@ -111,6 +111,16 @@ def test_checked_values_from_two_halves_to_the_beam():
     assert "(as the paper), 200 km/h: from 0.3275 to 0.2192 m/s²" in text
 
 
+def test_checked_values_of_ride_and_comfort():
+    """Exact values of independent programs; quiet speeds by hand, 9.59 Hz · 17.5 m/(k + 1/2)."""
+    text = "\n".join(in_text(read(FOLDER / "03_ride_and_comfort.ipynb")))
+    assert "- rigid: exact 0.0494 m/s²" in text
+    assert "the rigid one's by 0.78% and 0.66%" in text
+    for k, at in ((4, "134"), (3, "173"), (2, "242")):
+        assert f"quiet, k = {k}: expected at {at} km/h" in text
+    assert "wheelbase has its own zero at 173 km/h" in text
+
+
 def test_checked_values_of_the_frequency_response():
     """Zeros by hand, (k + 1/2) 55.56/17.5 and /2.5 Hz; exact values of independent programs."""
     text = "\n".join(in_text(read(FOLDER / "04_frequency_response.ipynb")))
