@@ -192,7 +192,7 @@ class Loop:
             ("outputs", self.controller.output_labels, forces),
         ):
             if sorted(found) != sorted(expected):
-                faults.add(f"controller's {what}", ", ".join(found), ", ".join(expected),
+                faults.add(f"controller's {what}", ", ".join(found), ", ".join(expected) or "none",
                            "name them as the vehicle's signals")  # fmt: skip
         known = self._known(self.model)
         for output in self.measured:
