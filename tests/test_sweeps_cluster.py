@@ -9,15 +9,17 @@ import socket
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from railride import InputError, sweep
-from railride.sweeps import cluster, pool
+from railride.sweeps import cluster, flight, pool
 
 Client = pytest.importorskip("distributed").Client
+KilledWorker = pytest.importorskip("distributed").KilledWorker
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -49,15 +51,15 @@ def dask(tmp_path):
     """Start the scheduler, or a worker of it, as a process; all are ended after the test."""
     running = []
     file = tmp_path / "scheduler.json"
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src"), "OMP_NUM_THREADS": "1"}
+    usual = {**os.environ, "PYTHONPATH": str(ROOT / "src"), "OMP_NUM_THREADS": "1"}
 
-    def start(what, *options):
+    def start(what, *options, **more):
         command = [sys.executable, "-m", f"distributed.cli.dask_{what}", "--scheduler-file",
                    str(file), "--no-dashboard", *options]  # fmt: skip
         log = (tmp_path / f"{what}{len(running)}.log").open("w")
         with log:
             running.append(
-                subprocess.Popen(command, env=environment, stdout=log, stderr=log, cwd=tmp_path)  # noqa: S603
+                subprocess.Popen(command, env=usual | more, stdout=log, stderr=log, cwd=tmp_path)  # noqa: S603
             )
         return running[-1]
 
@@ -68,9 +70,9 @@ def dask(tmp_path):
             time.sleep(0.05)
         return json.loads(file.read_text())["address"]
 
-    def worker():
+    def worker(**more):
         return start("worker", "--no-nanny", "--nthreads", "1", "--host", "127.0.0.1",
-                     "--local-directory", str(tmp_path))  # fmt: skip
+                     "--local-directory", str(tmp_path), **more)  # fmt: skip
 
     start.scheduler, start.worker, start.running = scheduler, worker, running
     yield start
@@ -107,6 +109,30 @@ def test_the_command_runs_on_a_cluster(dask, study, tmp_path, run):
                          "--format", "json")  # fmt: skip
     assert code == 0, err
     assert json.loads(out)["new"] == 24
+
+
+def test_what_kills_workers_of_a_cluster_is_named():
+    killed = Future()
+    killed.set_exception(KilledWorker("evaluate-1", None, 3))
+    flown = flight.Flight(pool.InProcess(), None, lambda *_: killed, str, 1)
+    with pytest.raises(InputError, match="7: found that worker after worker died"):
+        list(flown.results([7]))
+
+
+@pytest.mark.parametrize("what", ["none", "another"])
+def test_a_cluster_without_this_version_of_the_program(dask, study, tmp_path, what, monkeypatch):
+    source = tmp_path / "source"
+    source.mkdir()
+    address = dask.scheduler()
+    if what == "another":
+        monkeypatch.setattr(cluster, "__version__", "9.9")
+        dask.worker()
+        expected = "found railride 0.1.0 on tcp"
+    else:
+        dask.worker(PYTHONPATH=str(source))
+        expected = "found a cluster that cannot run railride"
+    with pytest.raises(InputError, match=expected):
+        sweep(study, tmp_path / "out", scheduler=address)
 
 
 def test_a_scheduler_that_ends_keeps_what_is_done(dask, study, tmp_path):

@@ -2,7 +2,7 @@
 
 plan (the designs by number) → settings (``[sweep]`` of a study file) → worker (evaluates a chunk)
 → pool, cluster (where workers are), flight (chunks through them) → manifest (what results are of),
-store (their parts in a folder), lock (one writer) → result → run (the whole).
+store (their parts in a folder), lock (one writer) → task (what is left) → result → run (the whole).
 """
 
 from railride.sweeps.result import SweepResult, read_sweep

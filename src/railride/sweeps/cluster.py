@@ -6,11 +6,17 @@ import asyncio
 import contextlib
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from railride import __version__
 from railride.errors import InputError
+from railride.sweeps.worker import version
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 PATIENCE = 5  # s, for a scheduler that does not answer, and for its first worker
+LONGEST = 60  # s, for a worker to load the program
 
 
 @contextlib.contextmanager
@@ -21,7 +27,8 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
 
     Raises
     ------
-    InputError : Dask is not installed; no scheduler answers; it has no workers.
+    InputError : Dask is not installed; no scheduler answers; it has no workers; they have another
+        version of the program, or none.
     """
     try:
         from distributed import Client
@@ -36,7 +43,25 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
         except TimeoutError:
             raise InputError(f"{where}: found a scheduler without workers; expected at least one "
                              f"(start it: dask worker {address})") from None  # fmt: skip
+        _check_program(client, where)
         yield client.get_executor(pure=False), sum(client.nthreads().values())
+
+
+def _check_program(client: Client, where: str) -> None:
+    """Refuse a cluster that cannot run this program: its scheduler, or one of its workers."""
+    try:
+        client.submit(version, pure=False).result(timeout=LONGEST)
+        found = {"scheduler": __version__, **client.run(version)}
+    except Exception as error:  # noqa: BLE001 - whatever the other side misses
+        reason = " ".join(str(error).split())[:120]
+        raise InputError(
+            f"{where}: found a cluster that cannot run railride ({reason}); expected railride "
+            f"{__version__} to be installed for its scheduler and each of its workers"
+        ) from None
+    others = {name: of for name, of in found.items() if of != __version__}
+    for name, other in others.items():
+        raise InputError(f"{where}: found railride {other} on {name}; expected {__version__}, as "
+                         "here (install the same everywhere)")  # fmt: skip
 
 
 def _check_answer(address: str, where: str) -> None:

@@ -75,6 +75,10 @@ class Flight(Generic[C, R]):
                     self._suspect(chunk, alone=len(landed) == 1 and not self._flying)
                 except CancelledError:
                     raise self._gone(chunk) from None
+                except Exception as error:
+                    if type(error).__name__ == "KilledWorker":  # as Dask has it, after some tries
+                        raise self._deadly(chunk) from None
+                    raise
                 else:
                     self._deaths.pop(chunk, None)
                     yield chunk, result
@@ -107,10 +111,7 @@ class Flight(Generic[C, R]):
         """Keep a chunk that came to nothing, to be tried again alone."""
         self._deaths[chunk] = self._deaths.get(chunk, 0) + alone
         if self._deaths[chunk] >= MOST_DEATHS:
-            raise InputError(
-                f"{self._name(chunk)}: found that a worker died on them {MOST_DEATHS} times; "
-                "expected that they can be evaluated (too little memory? Take a smaller chunk)"
-            )
+            raise self._deadly(chunk)
         self._suspects.append(chunk)
 
     def _recover(self) -> Iterator[tuple[C, R]]:
@@ -131,6 +132,12 @@ class Flight(Generic[C, R]):
                              "lasts (call again with a new one)")  # fmt: skip
         self.executor.shutdown(wait=False, cancel_futures=True)
         self.executor = self._start()
+
+    def _deadly(self, chunk: C) -> InputError:
+        return InputError(
+            f"{self._name(chunk)}: found that worker after worker died on them; expected "
+            "that they can be evaluated (too little memory? Take a smaller chunk)"
+        )
 
     def _gone(self, chunk: C) -> InputError:
         return InputError(f"{self._name(chunk)}: found that the executor gave them up; expected "

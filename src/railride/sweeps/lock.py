@@ -26,7 +26,7 @@ def locked(folder: Path) -> Iterator[None]:
     InputError : another process holds it; the folder cannot be written or locked.
     """
     try:
-        stream = (folder / NAME).open("a+b")
+        stream = (folder / NAME).open("a+b", buffering=0)
     except OSError as error:
         raise _cannot(folder, error) from None
     with stream:
@@ -42,9 +42,9 @@ def locked(folder: Path) -> Iterator[None]:
                 + (f" (process {holder})" if holder else "")
                 + "; expected one at a time (wait for it, or give another folder)"
             ) from None
-        stream.truncate(0)
-        stream.write(f"{os.getpid()}\n".encode())
-        stream.flush()
+        with contextlib.suppress(OSError):  # a full disk: it is but for the message
+            stream.truncate(0)
+            stream.write(f"{os.getpid()}\n".encode())
         yield
 
 

@@ -5,29 +5,26 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
-from dataclasses import dataclass, replace
+from concurrent.futures import Executor
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 from uuid import uuid4
 
 from railride.errors import InputError
 from railride.stochastic import track_spectrum
 from railride.studies import Study
 from railride.sweeps.cluster import cluster
-from railride.sweeps.flight import Flight
 from railride.sweeps.lock import locked
 from railride.sweeps.manifest import Manifest, keys_of, read_manifest, refuse_another
 from railride.sweeps.pool import InProcess, LocalPool
 from railride.sweeps.result import SweepResult, sweep_result
 from railride.sweeps.settings import SweepSettings, read_sweep_study
 from railride.sweeps.store import Store, check_form, parts_in, refuse_foreign, usual_form
-from railride.sweeps.worker import Columns, Recipe, evaluate, headings
+from railride.sweeps.task import Progress, Task
+from railride.sweeps.worker import Recipe, headings
 
 PER_WORKER = 2  # chunks in flight: one at work, one waiting
-
-Progress = Callable[[int, int], Any]
 
 
 def sweep(
@@ -93,72 +90,11 @@ def sweep(
         manifest = _manifest(study, settings, recipe)
         store, thrown = _opened(place, manifest, settings.form, replace)
         done, damaged = store.done()
-        task = _Task(store, settings, recipe, done, progress)
+        task = Task(store, settings.plan, recipe, done, progress)
         store.refuse_overflow(len(task.left))
         with _executors(executor, workers, scheduler, len(task.left)) as (first, start, window):
             task.run(first, start, window)
         return sweep_result(place, store.of, task.new, [*said, *thrown, *damaged])
-
-
-@dataclass
-class _Task:
-    """Chunks that are left, through an executor into the store."""
-
-    store: Store
-    settings: SweepSettings
-    recipe: Recipe
-    done: set[int]
-    progress: Progress | None
-
-    def __post_init__(self) -> None:
-        self.left = [chunk for chunk in range(self.store.chunks) if chunk not in self.done]
-        self.new = 0
-        self._tell()
-
-    def run(self, executor: Executor, start: Callable[[], Executor] | None, window: int) -> None:
-        """Evaluate what is left; a pool that was started here is ended."""
-        flight = Flight(executor, start, self._send, self._name, window)
-        finished = False
-        try:
-            for chunk, columns in flight.results(self.left):
-                self.store.write(chunk, self._parameters(chunk) | columns)
-                self.done.add(chunk)
-                self.new += self._count(chunk)
-                self._tell()
-            finished = True
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(self._so_far()) from None
-        except InputError as error:
-            raise InputError(f"{error}\n{self._so_far()}") from None
-        finally:
-            flight.cancel()
-            if start is not None:
-                flight.executor.shutdown(wait=finished, cancel_futures=True)
-
-    def _send(self, executor: Executor, chunk: int) -> Future[Columns]:
-        designs = self.settings.plan.designs(*self.store.span(chunk))
-        return executor.submit(evaluate, self.recipe, designs)
-
-    def _parameters(self, chunk: int) -> Columns:
-        designs = self.settings.plan.designs(*self.store.span(chunk))
-        return {p.heading: designs[p.symbol] for p in self.settings.plan.parameters}
-
-    def _count(self, chunk: int) -> int:
-        start, stop = self.store.span(chunk)
-        return stop - start
-
-    def _name(self, chunk: int) -> str:
-        start, stop = self.store.span(chunk)
-        return f"designs {start + 1} to {stop}"
-
-    def _tell(self) -> None:
-        if self.progress is not None:
-            self.progress(sum(map(self._count, self.done)), self.store.of.designs)
-
-    def _so_far(self) -> str:
-        there = len(parts_in(self.store.folder))
-        return (f"{there} of {self.store.chunks} parts are done and kept in "
-                f"{str(self.store.folder)!r}; the same command goes on from there")  # fmt: skip
 
 
 def _made(folder: Path) -> Path:

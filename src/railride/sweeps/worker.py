@@ -39,6 +39,11 @@ class Recipe:
     version: str = __version__
 
 
+def version() -> str:
+    """The program's version where it is called."""
+    return __version__
+
+
 def evaluate(recipe: Recipe, designs: dict[str, Array]) -> Columns:
     """The results of designs, a column for each, and what is wrong with designs that have none.
 
