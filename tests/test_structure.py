@@ -32,7 +32,7 @@ sensitivities
 studies
 sweeps
 optimisation
-uncertainty
+uncertainties
 markup text report halfbody_report plots cli derive __main__
 """.split()
 
@@ -108,6 +108,11 @@ def test_public_names_resolve_and_are_documented(name):
         own = inspect.getdoc(found).splitlines()[0]
         assert own.strip()
     assert name in dir(railride)
+
+
+def test_no_public_name_is_a_module():
+    """Once loaded, the module would be found under the name in its place."""
+    assert set(railride.__all__) & set(modules()) == set()
 
 
 def test_every_picture_is_at_hand():

@@ -12,7 +12,7 @@ from scipy import stats
 from railride import InputError, plot_sobol_indices, plot_uncertainty, plot_uncertainty_study
 from railride.distributions import METHODS, Distribution
 from railride.scales import PAPER_TABLE_3
-from railride.uncertainty import (
+from railride.uncertainties import (
     Uncertain,
     propagate,
     summary,

@@ -12,7 +12,7 @@ from scipy import stats
 from railride import InputError, derive_vehicle, read_study, stochastic_ride
 from railride.cli import main
 from railride.distributions import METHODS, Distribution
-from railride.uncertainty import read_uncertainty, study_uncertainty, uncertainty
+from railride.uncertainties import read_uncertainty, study_uncertainty, uncertainty
 
 COACH = derive_vehicle("cati2024", segments=2)
 SPEED = 200 / 3.6

@@ -51,7 +51,7 @@ _WHERE = {
     "sweeps": ("SweepResult", "read_sweep", "sweep"),
     "optimisation": ("Optimum", "ParetoFront", "optimise", "pareto_front"),
     "studies": ("Study", "read_study", "shipped_studies"),
-    "uncertainty": ("Uncertainty", "study_uncertainty", "uncertainty"),
+    "uncertainties": ("Uncertainty", "study_uncertainty", "uncertainty"),
     "sensitivities": ("Derivatives", "Sensitivities", "mean_squares_with_gradient",
                       "roots_with_gradient", "sensitivity",
                       "static_deflections_with_gradient"),

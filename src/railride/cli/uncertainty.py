@@ -12,7 +12,7 @@ from railride.cli.options import FORMATS, Arguments
 from railride.cli.progress import working
 
 if TYPE_CHECKING:
-    from railride.uncertainty import Estimate, Summary, Uncertainty
+    from railride.uncertainties import Estimate, Summary, Uncertainty
 
 
 @output.exits_cleanly
@@ -57,7 +57,7 @@ def uncertainty(
     given.check()
     with working("sampling") as advance:
         from railride.studies import read_study
-        from railride.uncertainty import read_uncertainty, study_uncertainty
+        from railride.uncertainties import read_uncertainty, study_uncertainty
 
         asked = read_study(study, {"uncertainty": read_uncertainty})
         found = study_uncertainty(asked, progress=advance)
@@ -116,7 +116,7 @@ def _quantity(found: Uncertainty, k: int) -> dict[str, Any]:
 
 def _flat(found: Uncertainty) -> list[dict[str, Any]]:
     """CSV: a row per quantity; classes and indices in columns of their own, empty where none."""
-    from railride.uncertainty.result import spread
+    from railride.uncertainties.result import spread
 
     rows = [{"quantity": name, **row} for name, row in found.table().to_dict("index").items()]
     for row, one, own in zip(rows, found.summaries, found.indices, strict=True):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from railride.uncertainty import Summary, Uncertain, Uncertainty
+    from railride.uncertainties import Summary, Uncertain, Uncertainty
 
 MOST = 6  # quantities of one picture
 BINS = 40

@@ -10,8 +10,8 @@ import numpy as np
 
 from railride.errors import Fault, InputError
 from railride.numeric import Array
-from railride.uncertainty.estimates import Estimate, Summary
-from railride.uncertainty.indices import Indices
+from railride.uncertainties.estimates import Estimate, Summary
+from railride.uncertainties.indices import Indices
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -15,9 +15,9 @@ from railride.numeric import Array
 from railride.quantities import several
 from railride.scales import Scale
 from railride.toml_tables import finite_number
-from railride.uncertainty.estimates import Summary, summary
-from railride.uncertainty.indices import Indices, crossed, indices
-from railride.uncertainty.result import Uncertain, Uncertainty
+from railride.uncertainties.estimates import Summary, summary
+from railride.uncertainties.indices import Indices, crossed, indices
+from railride.uncertainties.result import Uncertain, Uncertainty
 
 if TYPE_CHECKING:
     import pandas as pd

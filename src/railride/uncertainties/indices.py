@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from railride.numeric import Array
-from railride.uncertainty.estimates import LEVEL, RESAMPLES, Estimate
+from railride.uncertainties.estimates import LEVEL, RESAMPLES, Estimate
 
 ROUNDING = 1e-9  # of the value: what scatters less does so by rounding
 

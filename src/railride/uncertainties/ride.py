@@ -22,9 +22,9 @@ from railride.scales import (
 )
 from railride.spectra import Spectrum
 from railride.track import Track
-from railride.uncertainty.estimates import Summary
-from railride.uncertainty.propagation import PERCENTILES, SAMPLES, propagate
-from railride.uncertainty.result import Uncertain, Uncertainty
+from railride.uncertainties.estimates import Summary
+from railride.uncertainties.propagation import PERCENTILES, SAMPLES, propagate
+from railride.uncertainties.result import Uncertain, Uncertainty
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
 

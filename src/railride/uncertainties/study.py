@@ -21,14 +21,14 @@ from railride.distributions import METHODS, Distribution, refuse_sampling
 from railride.errors import Faults, InputError
 from railride.studies import Draft, Study
 from railride.toml_tables import Table
-from railride.uncertainty.propagation import PERCENTILES, SAMPLES, note_numbers
-from railride.uncertainty.result import Uncertainty
-from railride.uncertainty.ride import uncertainty
+from railride.uncertainties.propagation import PERCENTILES, SAMPLES, note_numbers
+from railride.uncertainties.result import Uncertainty
+from railride.uncertainties.ride import uncertainty
 
 
 @dataclass(frozen=True)
 class UncertaintySettings:
-    """What ``[uncertainty]`` says; arguments of :func:`railride.uncertainty.uncertainty`."""
+    """What ``[uncertainty]`` says; arguments of :func:`railride.uncertainties.uncertainty`."""
 
     samples: int = SAMPLES
     method: str = "sobol"

@@ -5,12 +5,12 @@ from) → result → propagation (through any function) → ride (through the ve
 file asks for it).
 """
 
-from railride.uncertainty.estimates import Estimate, Summary, summary
-from railride.uncertainty.indices import Indices
-from railride.uncertainty.propagation import propagate
-from railride.uncertainty.result import Uncertain, Uncertainty
-from railride.uncertainty.ride import uncertainty
-from railride.uncertainty.study import UncertaintySettings, read_uncertainty, study_uncertainty
+from railride.uncertainties.estimates import Estimate, Summary, summary
+from railride.uncertainties.indices import Indices
+from railride.uncertainties.propagation import propagate
+from railride.uncertainties.result import Uncertain, Uncertainty
+from railride.uncertainties.ride import uncertainty
+from railride.uncertainties.study import UncertaintySettings, read_uncertainty, study_uncertainty
 
 __all__ = [
     "Estimate",
