@@ -30,6 +30,7 @@ KINDS = {
     "numerics": ("D", "#000000", "numerics"),
 }
 ZOOM = 1.0  # s
+LABEL = 3.5  # percentage points: closer points share a label
 
 
 def figure_7(track: Track) -> Figure:
@@ -85,7 +86,7 @@ def seeds_figure(runs: Mapping[tuple[str, float], Array], exact: Mapping[str, Ar
 
     runs : (body, km/h) → a_wrms of every kilometre. exact : body → both exact values.
     """
-    figure = canvas.new_figure(11.0, 3.6)
+    figure = canvas.new_figure(11.0, 3.8)
     axes = figure.subplots(1, 2, sharey=True)
     for k, (ax, speed) in enumerate(zip(axes, SPEEDS_KMH, strict=True)):
         for program, body in (("DYMOLA", "halves"), ("VAMPIRE", "beam")):
@@ -100,7 +101,8 @@ def seeds_figure(runs: Mapping[tuple[str, float], Array], exact: Mapping[str, Ar
         ax.set_xlim(0.08, 0.50)
         canvas.tidy(ax)
     axes[0].set_ylabel("kilometres")
-    axes[1].legend(loc="upper right", frameon=False)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=6,
+                  frameon=False, fontsize="small")  # fmt: skip
     return figure
 
 
@@ -167,7 +169,7 @@ def gap_figure(
     figure = canvas.new_figure(11.0, 5.2)
     left, right = figure.subplots(1, 2)
     _draw_alone(left, alone)
-    _draw_grid(right, grid, scatter)
+    _draw_damped(right, grid, scatter)
     for ax in (left, right):
         ax.plot(*(100 * printed_gap()), "*", color=canvas.WEIGHTED, markersize=15, zorder=5,
                 markeredgecolor="white", label="as printed in Table 4")  # fmt: skip
@@ -175,37 +177,46 @@ def gap_figure(
         ax.axvline(0.0, color=canvas.TRACK, linewidth=0.8, zorder=1)
         ax.set_xlabel("DYMOLA over VAMPIRE at 145 km/h [%]")
         ax.set_ylabel("at 200 km/h [%]")
-        ax.legend(loc="upper left", frameon=False, fontsize="small")
+        ax.legend(loc="upper left", framealpha=0.9, edgecolor="none", fontsize="small")
         canvas.tidy(ax)
     return figure
 
 
 def _draw_alone(ax: Axes, alone: Sequence[Difference]) -> None:
-    """A point for each difference, numbered as in the table."""
-    seen = set()
-    for number, one in enumerate(alone, start=1):
-        mark, colour, label = KINDS[one.kind]
-        x, y = 100 * one.gap
-        ax.plot(x, y, mark, color=colour, markersize=6, label=None if one.kind in seen else label)
-        ax.annotate(str(number), (x, y), xytext=(5, 4), textcoords="offset points",
-                    fontsize="small", color=colour)  # fmt: skip
-        seen.add(one.kind)
+    """A point for each difference, numbered as in the table; close ones share a label."""
+    for kind, (mark, colour, label) in KINDS.items():
+        points = 100 * np.array([one.gap for one in alone if one.kind == kind])
+        ax.plot(*points.T, mark, color=colour, markersize=6, label=label)
+    left = {number: 100 * one.gap for number, one in enumerate(alone, start=1)}
+    while left:
+        first = next(iter(left.values()))
+        close = [n for n, gap in left.items() if np.abs(gap - first).max() < LABEL]
+        ax.annotate(", ".join(map(str, close)), first, xytext=(6, 4),
+                    textcoords="offset points", fontsize="small")  # fmt: skip
+        left = {n: gap for n, gap in left.items() if n not in close}
     ax.set_title("one difference alone (numbers as in the table)", **canvas.TITLE)
 
 
-def _draw_grid(ax: Axes, grid: Mapping[tuple[float, float], Array], scatter: Array) -> None:
-    """Lines of equal damping of one and of the other, and how one kilometre scatters."""
-    ax.plot(*(100 * scatter.T), ".", color=canvas.REST, markersize=3, zorder=1,
-            label="halves with 0.5 %, beam with 0 %: every kilometre")  # fmt: skip
-    for own, colour, label in ((0, canvas.BODY, "halves"), (1, canvas.BOGIE, "beam")):
-        for number, zeta in enumerate(DAMPING[::2]):
-            line = np.array([gap for pair, gap in grid.items() if pair[own] == zeta])
-            ax.plot(*(100 * line.T), color=colour, linewidth=1.0,
-                    label=None if number else f"{label} damped by 0, 0.5 … 2 %")  # fmt: skip
-            end = 100 * line[-1 if own == 0 else 0]
-            ax.annotate(f"{100 * zeta:g}", end, xytext=(3, 3), textcoords="offset points",
-                        fontsize="x-small", color=colour)  # fmt: skip
-    ax.set_title("two halves against a beam, both damped", **canvas.TITLE)
+def _draw_damped(ax: Axes, grid: Mapping[tuple[float, float], Array], scatter: Array) -> None:
+    """Halves damped over a beam that is not, the reverse, both; and how one kilometre scatters."""
+    ax.plot(*(100 * scatter.T), ".", color=canvas.REST, markersize=2.5, zorder=1,
+            label="halves 0.5 %, beam 0 %: every kilometre")  # fmt: skip
+    lines = {
+        "halves damped by 0 to 2 %, beam not": (canvas.BODY, [(zeta, 0.0) for zeta in DAMPING]),
+        "beam damped by 0 to 2 %, halves not": (canvas.BOGIE, [(0.0, zeta) for zeta in DAMPING]),
+        "both alike": (canvas.EQUIPMENT, [(zeta, zeta) for zeta in DAMPING]),
+    }
+    for label, (colour, pairs) in lines.items():
+        points = 100 * np.array([grid[pair] for pair in pairs])
+        ax.plot(*points.T, "o-", color=colour, linewidth=1.2, markersize=3.5, label=label)
+        for pair, point in list(zip(pairs, points, strict=True))[::2]:
+            if label != "both alike" and max(pair) > 0:
+                ax.annotate(f"{100 * max(pair):g} %", point, xytext=(5, -9),
+                            textcoords="offset points", fontsize="small", color=colour,
+                            annotation_clip=True)  # fmt: skip
+    ax.set_xlim(-30.0, 80.0)
+    ax.set_ylim(-25.0, 75.0)
+    ax.set_title("two halves against a beam, with structural damping", **canvas.TITLE)
 
 
 def integrators_figure(errors: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
