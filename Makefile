@@ -40,6 +40,7 @@ derivations: $(VENV)/test.stamp ## Make the pinned derivations again
 	$(COACH) --segments 2 --output derivations/vehicle_2.md
 	$(COACH) --segments 4 --output derivations/vehicle_4.md
 	$(BIN)/python derivations/paper_check.py
+	$(BIN)/python derivations/reproduction.py
 
 bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json
 	$(BIN)/python benchmarks/run.py
