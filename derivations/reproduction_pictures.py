@@ -50,12 +50,12 @@ def figure_of(pair: Sequence[Simulated]) -> Figure:
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2, 1))
     peak = first.time[np.argmax(np.abs(first.acceleration))]
     start = float(np.clip(peak - ZOOM / 2, 0.0, first.time[-1] - ZOOM))
-    for one, width in zip(pair, (1.6, 0.9), strict=True):
+    for one, width in zip(pair, (1.8, 0.7), strict=True):
         of = "halves" if one.case.flexible and one.case.program == "DYMOLA" else "beam"
         label = f"as {one.case.program}: {of if one.case.flexible else 'rigid'}, "
         label += "BDF 1e-4" if one.case.program == "DYMOLA" else "Euler-Cromer 1 ms"
         for ax, dots in ((left, False), (right, True)):
-            _line(ax, one, width, label, dots=dots)
+            _line(ax, one, (1.2 if dots else 1.0) * width, label, dots=dots)
     left.set_xlim(0.0, first.time[-1])
     right.set_xlim(start, start + ZOOM)
     left.axvspan(start, start + ZOOM, color=canvas.REST, alpha=0.35, linewidth=0, zorder=0)
@@ -78,7 +78,13 @@ def _line(ax: Axes, one: Simulated, width: float, label: str, *, dots: bool) -> 
     ax.plot(one.time, one.acceleration, color=colour, linewidth=width, label=label)
     if dots:
         step = round(OUTPUT_STEP / (one.time[1] - one.time[0]))
-        ax.plot(one.time[::step], one.acceleration[::step], "o", color=colour, markersize=2.5)
+        ax.plot(
+            one.time[::step],
+            one.acceleration[::step],
+            "o",
+            color=colour,
+            markersize=2 + 1.5 * width,
+        )
 
 
 def seeds_figure(runs: Mapping[tuple[str, float], Array], exact: Mapping[str, Array]) -> Figure:
@@ -191,8 +197,9 @@ def _draw_alone(ax: Axes, alone: Sequence[Difference]) -> None:
     while left:
         first = next(iter(left.values()))
         close = [n for n, gap in left.items() if np.abs(gap - first).max() < LABEL]
-        ax.annotate(", ".join(map(str, close)), first, xytext=(6, 4),
-                    textcoords="offset points", fontsize="small")  # fmt: skip
+        place = (max(left[n][0] for n in close), first[1])
+        ax.annotate(", ".join(map(str, close)), place, xytext=(6, 4), textcoords="offset points",
+                    fontsize="small")  # fmt: skip
         left = {n: gap for n, gap in left.items() if n not in close}
     ax.set_title("one difference alone (numbers as in the table)", **canvas.TITLE)
 
@@ -233,7 +240,8 @@ def integrators_figure(errors: Mapping[str, Mapping[str, Sequence[float]]]) -> F
                     label=name, **canvas.line_look(k))  # fmt: skip
         ax.set_xscale("log")
         ax.set_yscale("log")
-        ax.xaxis.set_major_formatter("{x:g}")
+        ax.set_xticks(1000 / np.array(RATES), [f"{1000 / rate:g}" for rate in RATES])
+        ax.xaxis.set_minor_formatter("")
         ax.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %")
         ax.axhline(1e-3, color=canvas.TRACK, linewidth=0.8, linestyle=":")
         ax.set_xlabel("step [ms]")

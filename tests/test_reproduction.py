@@ -3,6 +3,7 @@
 The whole is made by ``python derivations/reproduction.py``; here are the parts that take seconds.
 """
 
+import doctest
 import re
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 FOLDER = Path(__file__).parent.parent / "derivations"
 sys.path.insert(0, str(FOLDER))
 
+import reproduction_cases as cases  # noqa: E402
 import reproduction_causes as causes  # noqa: E402
 import reproduction_errors as errors  # noqa: E402
 import reproduction_fit as fit  # noqa: E402
@@ -32,7 +34,7 @@ NUMBER = re.compile(r"[+-]?\d+(?:\.(\d+))?(?:e-?\d+)?")
 def numbers(text):
     """Every number of a text, and one unit of its last place."""
     found = [(float(m.group()), 10.0 ** -len(m.group(1) or "")) for m in NUMBER.finditer(text)]
-    return np.array(found)
+    return np.array(found).reshape(-1, 2)
 
 
 def rows(heading):
@@ -205,6 +207,13 @@ def test_differences_multiply_and_the_nearest_is_found():
 def test_step_of_convergence_needs_all_finer_ones():
     assert errors.converged_step([1e-4, 2e-3, 1e-4], (500.0, 1000.0, 2000.0)) == 1 / 2000
     assert errors.converged_step([1e-4, 2e-3], (500.0, 1000.0)) is None
+
+
+@pytest.mark.parametrize("module", [errors, cases, results, seeds])
+def test_examples_in_the_docstrings(module):
+    found = doctest.testmod(module)
+    assert found.attempted
+    assert not found.failed
 
 
 def test_every_picture_is_there_and_every_chapter():
