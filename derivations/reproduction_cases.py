@@ -44,6 +44,7 @@ def bodies() -> dict[str, VehicleModel]:
 def body_of(case: Case) -> str:
     """The name of the body that stands for a case's.
 
+    >>> from paper import CASES
     >>> [body_of(case) for case in CASES[:4]]
     ['rigid', 'rigid', 'halves', 'beam']
     """
