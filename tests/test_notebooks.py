@@ -130,6 +130,16 @@ def test_checked_values_of_the_frequency_response():
     assert "- skyhook, ideal: 0.169 m/s²" in text
 
 
+def test_what_was_put_in_is_found_with_an_own_vehicle_and_track():
+    """The spectrum that the track was made from, the dip in it, and the ride in the record."""
+    text = "\n".join(in_text(read(FOLDER / "06_your_own_vehicle_and_track.ipynb")))
+    assert "closest to `erri_high`, with 0.6 dB of misfit and 1.00 times its level" in text
+    (worst,) = re.findall(r"- middle: at kilometre (\S+)", text)
+    assert 0 < float(worst) - 19.7 < (160 / 3.6 + 13) / 1000  # a second, and half the car
+    found, true = re.findall(r"The record gives (\S+) m/s², the ride had (\S+) m/s²", text)[0]
+    assert found == true
+
+
 def test_a_failing_cell_fails_the_run(run):
     notebook = nbformat.v4.new_notebook(
         cells=[nbformat.v4.new_code_cell("1 / 0")],
