@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -103,11 +102,6 @@ def middle_95(values: ArrayLike) -> tuple[float, float]:
     """From the 2.5 % to the 97.5 % quantile: where one kilometre lies 19 times of 20."""
     low, high = np.quantile(np.asarray(values), [0.025, 0.975])
     return float(low), float(high)
-
-
-def every_case() -> list[tuple[str, float]]:
-    """All pairs of a body and a speed in km/h."""
-    return list(product(bodies(), SPEEDS_KMH))
 
 
 if __name__ == "__main__":
