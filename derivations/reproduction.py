@@ -1,6 +1,6 @@
 """The paper's eight cases again, on track that is public, and what makes its two programs differ.
 
-Writes reproduction.md and figures/reproduction_*.png beside it, five to ten minutes of work in two processes:
+Writes reproduction.md and figures/reproduction_*.png beside it, in about five minutes:
 
     python derivations/reproduction.py
 
