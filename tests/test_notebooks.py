@@ -140,6 +140,14 @@ def test_what_was_put_in_is_found_with_an_own_vehicle_and_track():
     assert found == true
 
 
+def test_checked_values_of_the_design_study():
+    """The spring by hand, (34 + 4) t g/2/280 mm = 665.5 kN/m, on the grid the next of 20 kN/m."""
+    text = "\n".join(in_text(read(FOLDER / "05_a_suspension_design_study.ipynb")))
+    assert "2,706 designs of 2,706 in 3 parts, 0 of them without values" in text
+    assert "The best of them has 680 kN/m and 38 kN s/m" in text
+    assert "The secondary spring ends at 665 kN/m" in text
+
+
 def test_a_failing_cell_fails_the_run(run):
     notebook = nbformat.v4.new_notebook(
         cells=[nbformat.v4.new_code_cell("1 / 0")],
