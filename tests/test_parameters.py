@@ -7,6 +7,7 @@ import os
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -127,6 +128,14 @@ def test_a_body_refuses_impossible_numbers(key, value):
 def test_a_bogie_refuses_impossible_numbers(key, value):
     with pytest.raises(InputError, match=f"bogie: {key}: found"):
         replace(BOGIE, **{key: value})
+
+
+@pytest.mark.parametrize("value", [np.array(5.73e8), np.float64(5.73e8), np.int64(573_000_000)])
+def test_numbers_of_numpy_are_numbers(value):
+    """``VehicleModel.values`` gives arrays without an axis."""
+    body = replace(load_vehicle("cati2024").body, bending_frequency=None, joint_stiffness=value)
+    assert type(body.joint_stiffness) is float
+    assert body.joint_stiffness == float(value)
 
 
 def test_dampings_may_be_zero_and_stiffnesses_not():

@@ -256,7 +256,12 @@ class Table:
 
 
 def finite_number(value: object) -> float | None:
-    """Return ``value`` as a float; None if it is no number (True is none) or not finite."""
+    """Return ``value`` as a float; None if it is no number (True is none) or not finite.
+
+    A number is also an array of numpy without an axis: what a calculation with arrays comes to.
+    """
+    if getattr(value, "shape", None) == () and hasattr(value, "item"):
+        value = value.item()
     if not isinstance(value, Real) or isinstance(value, bool):
         return None
     try:
