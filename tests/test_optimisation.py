@@ -377,6 +377,14 @@ def test_the_parameter_file_reads_back_and_rides_the_same(tmp_path):
     assert table["change"][0] == pytest.approx(found.parameters["k_2"] / 750e3 - 1)
 
 
+def test_what_ends_on_a_bound_has_its_value_to_the_last_bit():
+    ranges, limits = SUSPENSION | {"c_1": (1e4, 6e4)}, {"damping_ratio": {"heave": 0.15}}
+    found = optimise(paper_coach(2), ranges, PAPER, limits=limits)
+    assert [change.at_bound for change in found.changes] == ["lower", "", "upper"]
+    assert found.parameters["k_2"] == 4e5
+    assert found.parameters["c_1"] == 6e4
+
+
 def test_what_ends_on_a_bound_or_changes_nothing_is_said():
     model = derive_vehicle("manchester", 1)
     ranges = {"k_2": (5e5, 8e5), "m_w": (1e3, 2e3)}

@@ -34,6 +34,7 @@ CONVERGED = 1e-4  # KKT residual: at worst, what is left to gain is of this orde
 ACTIVE = 1e-5  # relative margin below which a limit binds, or distance from a bound
 ITERATIONS = 200
 TOLERANCES = (1e-9, 1e-12)  # of ln g from step to step; the second where the first is too wide
+_ON_BOUND = 1e-9  # of a range: what the method means by the bound itself
 _EXACTLY = 1e3  # weight of the condition that the multipliers of the cases add up to 1
 
 
@@ -148,7 +149,8 @@ def _slsqp(
         options={"ftol": tolerance, "maxiter": ITERATIONS},
         callback=None if progress is None else lambda _: progress(),
     )  # fmt: skip
-    return np.clip(found.x, low, high), int(found.nit)
+    x = np.where(found.x - low < _ON_BOUND, low, found.x)
+    return np.where(high - x < _ON_BOUND, high, x), int(found.nit)
 
 
 def _with_column(slopes: Array, value: float) -> Array:
