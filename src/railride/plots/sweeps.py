@@ -33,6 +33,7 @@ def plot_sweep(
 
     Over two, a grid becomes a map, and other designs points in colours. Where further parameters
     vary, a map has the least value of each place, and what is drawn over one parameter is points.
+    Axes are in kN/m, kN s/m, kN m/rad, MN m² and t where the table's columns are in SI units.
 
     result : of :func:`railride.sweep` or :func:`railride.read_sweep`. over : headings of one
     parameter or two; default the first two, or the only one. value : heading of what is drawn;

@@ -40,7 +40,8 @@ def sweep(
     """Evaluate every design of a study; the results go into a folder, a part at a time.
 
     What is finished stays, whatever ends it: called again, it goes on where it stopped. Scripts
-    that call it need ``if __name__ == "__main__":``, since the processes import them again.
+    that call it need ``if __name__ == "__main__":``, since the processes import them again; in a
+    notebook there is nothing to mind.
 
     Parameters
     ----------
