@@ -218,6 +218,8 @@ nunber = 3
         (HEAD + '[parameters.k_2]\nfrom = "3 N/m"\n', ['to = "number N/m"']),
         (HEAD + '[parameters.k_2]\nvalues = []\n', ["values: found an empty list"]),
         (HEAD + '[parameters.c_1]\nfrom="0 N s/m"\nto="1 N s/m"\nspacing="log"', ["above 0"]),
+        (HEAD + '[parameters.k_2]\nfrom="3 N/m"\nto="4 N/m"\npoints=100000000000000000000',
+         ["parameters.k_2.points: found 100000000000000000000"]),
         (HEAD + "[parameters]\nk_2 = 3\n", ["3; expected a table [parameters.k_2]"]),
         (HEAD.replace("segments = 2", 'kind = "gas"'), ["body: kind: found 'gas'"]),
         (HEAD.replace("cati2024", "manchester"), ["bending"]),

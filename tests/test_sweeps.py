@@ -206,6 +206,34 @@ def test_a_damaged_part_is_made_again(written, folder, form, alone):
     assert not list(folder.glob(".part*"))
 
 
+@pytest.mark.parametrize("form", ["parquet", "csv"])
+def test_a_part_in_the_place_of_another_is_made_again(written, folder, form, alone):
+    study = written(GRID.replace("chunk = 4", f'chunk = 4\nformat = "{form}"'))
+    in_this_process(study, folder)
+    first, second = (folder / f"part-00000{k}.{form}" for k in (1, 2))
+    first.write_bytes(second.read_bytes())
+    assert in_this_process(study, folder).new == 4
+    assert_whole(folder, alone)
+
+
+def test_a_part_with_damage_amid_it_is_named(written, folder):
+    in_this_process(written(), folder)
+    damaged = folder / "part-000003.parquet"
+    content = damaged.read_bytes()
+    damaged.write_bytes(content[:4] + bytes(len(content) // 4) + content[4 + len(content) // 4 :])
+    with pytest.raises(InputError, match=r"part-000003\.parquet: found a damaged part.*delete it"):
+        read_sweep(folder)
+    damaged.unlink()
+    assert in_this_process(written(), folder).new == 4
+
+
+def test_parquet_cannot_be_read_without_its_library(written, folder, monkeypatch):
+    in_this_process(written(), folder)
+    monkeypatch.setattr(store, "usual_form", lambda: "csv")
+    with pytest.raises(InputError, match=r"railride\[formats\]"):
+        read_sweep(folder)
+
+
 def test_a_changed_study_is_refused_and_told_by_its_keys(written, folder):
     in_this_process(written(), folder)
     changed = GRID.replace('to = "900 kN/m"', 'to = "950 kN/m"').replace('"200 km/h"', '"220 km/h"')
@@ -317,9 +345,13 @@ def test_folders_with_something_else_are_refused(written, folder):
         with pytest.raises(InputError, match=name):  # not even to be replaced
             in_this_process(written(GRID.replace("900", "950")), folder, replace=True)
         (folder / name).unlink()
-    (folder / "_study.json").write_text("{}")
-    with pytest.raises(InputError, match="cannot be read"):
-        in_this_process(written(), folder)
+    sound = json.loads((folder / "_study.json").read_text())
+    for wrong in ({}, {**sound, "keys": 3}, {**sound, "columns": None}, {**sound, "chunk": 0}):
+        (folder / "_study.json").write_text(json.dumps(wrong))
+        with pytest.raises(InputError, match="cannot be read"):
+            in_this_process(written(), folder)
+        with pytest.raises(InputError, match="cannot be read"):
+            read_sweep(folder)
 
 
 def test_a_part_of_another_study_is_refused(written, folder, tmp_path):
@@ -611,6 +643,10 @@ def alive(pid):
         (HEAD + '[sweep]\nkind = "grid"\n', ["parameters: found none"]),
         (GRID.replace("points = 5", ""), ["secondary_stiffness.points: found nothing"]),
         (GRID.replace("chunk = 4", "chunk = 0"), ["sweep.chunk: found 0"]),
+        (GRID.replace("points = 5", "points = 100_000_000_000_000_000_000"),
+         ["secondary_stiffness.points: found 100000000000000000000; expected a whole number"]),
+        (GRID + '[parameters.c_1]\nfrom = "0 N s/m"\nto = "1 N s/m"\npoints = 3\nspacing = "log"\n',
+         ["parameters.c_1.from: found '0 N s/m'; expected a value above 0 for equal ratios"]),
         (GRID.replace("chunk = 4", 'format = "xml"\nnumber = 3'),
          ["sweep.format: found 'xml'", "sweep.number: found a key"]),
         (GRID + '[parameters.m_c]\ndistribution = "uniform"\nfrom = "34 t"\nto = "40 t"\n',

@@ -69,6 +69,14 @@ def test_indices_of_ishigamis_function(method):
     assert own.rows == 4096
 
 
+def test_all_scatter_is_of_the_only_parameter():
+    found = through(np.exp, [Distribution("normal", mean=0.0, deviation=0.5)], samples=4096)
+    for estimates in (found.indices[0].first, found.indices[0].total):
+        assert len(estimates) == 1
+        assert estimates[0].low <= 1 <= estimates[0].high
+        assert estimates[0].value == pytest.approx(1, abs=0.02)
+
+
 def test_a_sum_of_normals_has_its_closed_form():
     sigma, factor = np.array([1.0, 2.0, 0.5]), np.array([3.0, -1.0, 4.0])
     normals = [Distribution("normal", mean=5.0, deviation=s) for s in sigma]

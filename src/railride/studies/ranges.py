@@ -57,6 +57,7 @@ def read_range(table: Table, unit: str, sign: str) -> Range | None:
     points, spacing = table.whole("points"), table.choice("spacing", SPACINGS) or "linear"
     if points is not None and not 2 <= points <= MOST_POINTS:
         table.fault("points", str(points), f"a whole number from 2 to {MOST_POINTS:,}")
+        points = None  # no such many are made
     if low is None or high is None:
         return None
     if low >= high:
@@ -67,6 +68,7 @@ def read_range(table: Table, unit: str, sign: str) -> Range | None:
     elif spacing == "log" and low <= 0:
         table.fault("from", repr(table.content["from"]), "a value above 0 for equal ratios",
                     'or take spacing = "linear"')  # fmt: skip
+        spacing = "linear"
     return Range(low, high, points, spacing)
 
 

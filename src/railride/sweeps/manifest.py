@@ -24,6 +24,8 @@ NAME = "_study.json"  # what readers of Parquet folders pass over begins with an
 _COMMENTS = ("name", "source", "remarks")  # of a vehicle: they change nothing
 _WAVENUMBERS = np.geomspace(0.01, 100.0, 64)  # rad/m, at which a spectrum is told from others
 _SHOWN = 10  # keys in a message
+_KINDS = {"study": str, "keys": dict, "parameters": list, "columns": list, "designs": int,
+          "chunk": int, "form": str}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,9 @@ def read_manifest(folder: Path) -> Manifest | None:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         named = {name: content[name] for name in Manifest.__dataclass_fields__}
+        wrong = [name for name, kind in _KINDS.items() if not isinstance(named[name], kind)]
+        if wrong or named["chunk"] < 1:
+            raise ValueError(f"its {(wrong or ['chunk'])[0]!r}")
     except FileNotFoundError:
         return None
     except (OSError, ValueError, KeyError, TypeError) as error:

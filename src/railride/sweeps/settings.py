@@ -83,8 +83,10 @@ def _check_specs(table: Table, draft: Draft, kinds: tuple[type, ...], expected: 
 def _read_grid(table: Table, draft: Draft) -> Plan | None:
     _check_specs(table, draft, (Range, Listed), "from, to and points, or values")
     for p in draft.parameters:
-        if isinstance(p.spec, Range) and p.spec.points is None:
-            table.faults.add(f"parameters.{p.name}.points", "nothing", "points = 11, or so",
+        where = f"parameters.{p.name}.points"
+        said = any(fault.where == where for fault in table.faults.found)
+        if isinstance(p.spec, Range) and p.spec.points is None and not said:
+            table.faults.add(where, "nothing", "points = 11, or so",
                              "a grid takes a number of values")  # fmt: skip
     total = prod(len(p.spec.values()) for p in draft.parameters
                  if isinstance(p.spec, Range | Listed))  # fmt: skip

@@ -26,6 +26,7 @@ from railride.tables.text import exactly
 
 if TYPE_CHECKING:
     import pandas as pd
+    import pyarrow.parquet as pq
 
 NUMBER = "design"  # heading of the designs' numbers, from 1
 _PART = re.compile(r"part-(\d{6,})\.(parquet|csv)")
@@ -190,11 +191,22 @@ def _numbers(folder: Path, store: Store) -> Iterator[int]:
 
 
 def read_part(path: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """One part as a table; all columns, or some."""
+    """One part as a table; all columns, or some.
+
+    Raises
+    ------
+    InputError : a part that is damaged; Parquet without its library.
+    """
     import pandas as pd
 
     if path.suffix == ".parquet":
-        return pd.read_parquet(path, columns=None if columns is None else list(columns))
+        check_form("parquet")
+        try:
+            return pd.read_parquet(path, columns=None if columns is None else list(columns))
+        except OSError as error:
+            why = " ".join(str(error).split())
+            raise InputError(f"{path}: found a damaged part ({why}); expected a whole one (delete "
+                             "it, and sweep again: only it is made anew)") from None  # fmt: skip
     table = pd.read_csv(path, encoding="utf-8", dtype={PROBLEM: str}, **exactly(pd.__version__))
     table[PROBLEM] = table[PROBLEM].fillna("")
     return table if columns is None else table[list(columns)]
@@ -240,7 +252,13 @@ def _is_whole_parquet(path: Path, first: int, last: int, of: Manifest) -> bool:
             f"{path}: found a part of {'another sweep' if mark else 'no sweep'}; expected one of "
             "this sweep (move it away)"
         )
-    return bool(found.num_rows == last - first + 1)
+    return bool(found.num_rows == last - first + 1) and _numbers_of(found) == (first, last)
+
+
+def _numbers_of(found: pq.FileMetaData) -> tuple[int, int]:
+    """The least and the largest number of a design in a part, by its statistics."""
+    groups = [found.row_group(k).column(0).statistics for k in range(found.num_row_groups)]
+    return min(group.min for group in groups), max(group.max for group in groups)
 
 
 def _is_whole_csv(path: Path, first: int, last: int, of: Manifest) -> bool:

@@ -70,8 +70,11 @@ def indices(a: Array, b: Array, ab: Array, seed: int) -> Indices | None:
             "f_B": b[np.newaxis, at],
             "f_AB": ab[:, np.newaxis, at],
         }
+        if len(ab) == 1:  # scipy makes no array of one: its twin beside it changes nothing
+            sampled["f_AB"] = np.repeat(sampled["f_AB"], 2, axis=0)
         found = stats.sobol_indices(func=sampled, n=at.size)
-        return np.concatenate([np.ravel(found.first_order), np.ravel(found.total_order)])
+        both_orders = np.array([found.first_order, found.total_order])
+        return np.ravel(both_orders[:, : len(ab)])
 
     drawn = stats.bootstrap((rows,), both, vectorized=False, n_resamples=RESAMPLES, batch=1,
                             method="percentile", confidence_level=LEVEL, rng=seed)  # fmt: skip
