@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP_INSTALL := install --quiet --disable-pip-version-check --constraint constraints.txt
 
-.PHONY: help ride test lint format derivations bench clean
+.PHONY: help ride test lint format docs derivations bench clean
 .DEFAULT_GOAL := help
 
 help: ## List what there is to make
@@ -27,6 +27,9 @@ lint: $(VENV)/dev.stamp ## Check style, format and types
 format: $(VENV)/dev.stamp ## Mend what style and format checks can mend
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
+
+docs: $(VENV)/docs.stamp ## Build the documentation site in build/docs; a warning is an error
+	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -c docs -d build/doctrees . build/docs
 
 DERIVE := $(BIN)/python -m railride derive --format markdown
 COACH := $(DERIVE) --nonlinear --vehicle cati2024
@@ -64,6 +67,10 @@ $(VENV)/python.stamp: constraints.txt
 
 $(VENV)/test.stamp: $(VENV)/python.stamp pyproject.toml
 	$(PYTHON) -m pip --python $(BIN)/python $(PIP_INSTALL) --no-build-isolation --editable '.[test]'
+	@touch $@
+
+$(VENV)/docs.stamp: $(VENV)/test.stamp
+	$(PYTHON) -m pip --python $(BIN)/python $(PIP_INSTALL) --no-build-isolation --editable '.[docs]'
 	@touch $@
 
 $(VENV)/dev.stamp: $(VENV)/test.stamp
