@@ -283,6 +283,14 @@ def test_one_that_cannot_be_does_not_stop_the_others():
     assert "design 2" in remark
 
 
+def test_travel_alone_has_its_reasons_too():
+    designs = {"c_1": [3e4, 0.0], "c_2": [7e4, 0.0]}
+    found = evaluate_designs(paper_coach(1), designs, "erri_low", SPEEDS, results="travel")
+    assert np.isnan(found.travel_rms[1]).all()
+    assert found.problems[0] == ""
+    assert "without damping" in found.problems[1]
+
+
 def test_unstable_designs_are_not_integrated(monkeypatch):
     def never(*_, **__):
         raise AssertionError

@@ -230,6 +230,8 @@ nunber = 3
         (HEAD + '[parameters.k_2]\ndistribution = "uniform"\nfrom = "3 N/m"\npoints = 3\n',
          ["parameters.k_2.to", "parameters.k_2.points"]),
         ("schema = 2\n" + HEAD, ["schema: found 2"]),
+        (HEAD + 'positions = ["0 m", "99 m"]\n',
+         ["study.toml: ride.positions[2]: ", "found a point off the body"]),
     ],
 )  # fmt: skip
 def test_faulty_studies(study, text, parts):

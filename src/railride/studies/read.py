@@ -89,6 +89,8 @@ def read_study(
     body = read_body_options(top.table("body") or Table({}, "body", faults))
     ride = read_ride(top.table("ride") or Table({}, "ride", faults), path.parent)
     model = None if vehicle is None else derived(body, vehicle, top)
+    if model is not None and ride is not None:
+        _check_positions(model, ride, top)
     draft = _draft(path.parent, model, ride, top)
     settings = _read_sections(top, draft, readers or {})
     top.finish()
@@ -112,6 +114,15 @@ def _read_vehicle(top: Table, folder: Path) -> Vehicle | None:
     except InputError as error:
         top.faults.include("vehicle", error)
         return None
+
+
+def _check_positions(model: VehicleModel, ride: RideCases, top: Table) -> None:
+    """Note points that are not on the car body."""
+    for place, x in enumerate(ride.positions, start=1):
+        try:
+            model.floor(x, ride.floor, derivative=0)
+        except InputError as error:
+            top.faults.include(f"ride.positions[{place}]", error)
 
 
 def _draft(folder: Path, model: VehicleModel | None, ride: RideCases | None, top: Table) -> Draft:
