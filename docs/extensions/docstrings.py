@@ -24,6 +24,7 @@ NAME = r"\w+(?:\.\w+)*"
 NAMES = rf"{NAME}(?:, {NAME})*"
 ITEM = re.compile(rf"(?:(?<=[.;] )|^)(`*)({NAMES})\1 ?: ", re.MULTILINE)
 LITERAL_OR_BAR = re.compile(r"(``.*?``|`[^`]*`)|\|", re.DOTALL)
+ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[~?typing\.Any, \.\.\.\], ~?numpy\.dtype\[[~\w.]+\]\]")
 UNDERLINED = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)
 
 
@@ -100,6 +101,19 @@ def rewrite(_app: Any, _what: str, _name: str, found: Any, _options: Any, lines:
     lines[:] = readable("\n".join(lines), arguments(found)).splitlines()
 
 
+def with_arrays(
+    _app: Any,
+    _what: str,
+    _name: str,
+    _found: Any,
+    _options: Any,
+    taken: str | None,
+    made: str | None,
+) -> tuple[str | None, str | None]:
+    """Arrays in a signature by the name they are written by."""
+    return taken and ARRAY.sub("NDArray", taken), made and ARRAY.sub("NDArray", made)
+
+
 def lead_to_page(app: Any, env: Any, node: Any, content: Any) -> Any:
     """Resolve ``railride.rides.ride`` as ``railride.ride``, where that is public."""
     if node.get("refdomain") != "py":
@@ -119,5 +133,6 @@ def setup(app: Any) -> dict[str, bool]:
     """Called by Sphinx."""
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("autodoc-process-docstring", rewrite)
+    app.connect("autodoc-process-signature", with_arrays)
     app.connect("missing-reference", lead_to_page)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
