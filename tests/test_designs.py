@@ -57,6 +57,9 @@ def test_comfort_values_are_those_of_the_ride(model):
                                                getattr(alone, name), rtol=1e-9)  # fmt: skip
     assert (given.error < 1e-8).all()
     assert list(given.problems) == [""] * 3
+    (said,) = (remark for remark in given.remarks if "sncf_good holds" in remark)
+    assert "at 145 km/h" in said
+    assert "at 200 km/h" in said
 
 
 def test_wheelsets_that_move_are_reached_where_they_are():

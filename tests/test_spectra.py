@@ -188,6 +188,15 @@ def test_d1_at_145_km_h_covers_1_6_to_13_4_hz():
     assert covered_hz(D1, 145 / 3.6) == pytest.approx((1.611, 13.43), rel=1e-3)
     assert "145 km/h 1.61 to 13.4 Hz" in coverage_remark("line 4", D1, 145 / 3.6)
     assert coverage_remark("erri_low", None, 40.0) is None
+    assert coverage_remark("line 4", D1) is None
+
+
+def test_coverage_over_a_range_of_speeds_is_said_once():
+    """D1 is 3 to 25 m: at 90 km/h, 25 m/s, 1 to 8.33 Hz; at 270 km/h three times as high."""
+    said = coverage_remark("line 4", D1, 50.0, 25.0, 75.0)
+    assert said.endswith(": at 90 km/h 1 to 8.33 Hz, rising to 3 to 25 Hz at 270 km/h; "
+                         "nothing outside")  # fmt: skip
+    assert coverage_remark("line 4", D1, 25.0, 25.0) == coverage_remark("line 4", D1, 25.0)
 
 
 @pytest.mark.parametrize("name", spectrum_names())

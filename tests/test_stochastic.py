@@ -439,6 +439,12 @@ def test_a_map_covers_the_whole_floor_by_default():
         comfort_map(paper_coach(1), LOW, [])
 
 
+def test_a_map_over_a_spectrum_with_a_band_says_so_once():
+    table = comfort_map(paper_coach(1), spectrum("sncf_good"), [20.0, 40.0, 80.0], [0.0])
+    (said,) = table.attrs["remarks"]
+    assert "at 72 km/h 0.5 to 10 Hz, rising to 2 to 40 Hz at 288 km/h" in said
+
+
 def test_comfort_is_drawn_along_the_car_over_speed_and_as_a_map():
     table = comfort_map(paper_coach(2), LOW, [30.0, 40.0, 50.0], [-12.0, 0.0, 6.0, 12.0])
     along = plots.plot_comfort_along(table)

@@ -83,18 +83,23 @@ def covered_hz(band: tuple[float, float], speed: float) -> tuple[float, float]:
     return speed / band[1], speed / band[0]
 
 
-def coverage_remark(name: str, band: tuple[float, float] | None, speed: float) -> str | None:
+def coverage_remark(name: str, band: tuple[float, float] | None, *speeds: float) -> str | None:
     """Sentence naming the frequencies that a track or spectrum covers; None if it has no band.
 
-    ``name``: of the track or spectrum; ``band``: its wavelengths, m; ``speed``: m/s.
+    ``name``: of the track or spectrum; ``band``: its wavelengths, m; ``speeds``: m/s, of which
+    the lowest and the highest are named (both ends of the band grow with the speed).
 
     >>> coverage_remark("sncf_good", (2.0, 40.0), 40.0)
     'sncf_good holds wavelengths of 2 to 40 m only: at 144 km/h 1 to 20 Hz; nothing outside'
+    >>> coverage_remark("sncf_good", (2.0, 40.0), 40.0, 60.0, 80.0).split(": ")[1]
+    'at 144 km/h 1 to 20 Hz, rising to 2 to 40 Hz at 288 km/h; nothing outside'
     """
-    if band is None:
+    if band is None or not speeds:
         return None
-    low, high = covered_hz(band, speed)
+    slow, fast = min(speeds), max(speeds)
+    (low, high), (low_fast, high_fast) = covered_hz(band, slow), covered_hz(band, fast)
+    rising = f", rising to {low_fast:.3g} to {high_fast:.3g} Hz at {fast * 3.6:.4g} km/h"
     return (
-        f"{name} holds wavelengths of {band[0]:g} to {band[1]:g} m only: at {speed * 3.6:.4g} km/h "
-        f"{low:.3g} to {high:.3g} Hz; nothing outside"
+        f"{name} holds wavelengths of {band[0]:g} to {band[1]:g} m only: at {slow * 3.6:.4g} km/h "
+        f"{low:.3g} to {high:.3g} Hz{rising if fast > slow else ''}; nothing outside"
     )

@@ -77,7 +77,8 @@ def track_spectrum(
     ----------
     track : a spectrum or its name, a track or its file; a measured track's spectrum is estimated
         from the whole of it.
-    speeds : m/s, at which it is said what frequencies a spectrum with a band holds.
+    speeds : m/s; of the lowest and the highest it is said what frequencies a spectrum with a band
+        holds.
 
     Raises
     ------
@@ -96,8 +97,8 @@ def track_spectrum(
     remarks = list(source.remarks)
     if isinstance(found, MeasuredSpectrum):
         remarks.append(found.remark)
-    covered = [coverage_remark(found.name, found.active_band, speed) for speed in speeds]
-    return found, [*remarks, *filter(None, covered)]
+    covered = coverage_remark(found.name, found.active_band, *speeds)
+    return found, [*remarks, *([covered] if covered else [])]
 
 
 def measured_spectrum(track: Track, segment: float | None = None) -> MeasuredSpectrum:
