@@ -55,11 +55,27 @@ def test_gravity_in_the_record_leaves_both_lines_in_the_picture():
 def test_running_rms_with_blocks_and_the_whole():
     found = rating()
     ax = plots.plot_running_rms(found, "floor")
-    assert_allclose(ax.get_lines()[0].get_ydata(), found.axes[0].running[0])
+    assert_allclose(ax.get_lines()[0].get_ydata(), found.axes[0].running[0][199:])
     (blocks,) = ax.collections
     heights = [segment[0][1] for segment in blocks.get_segments()]
     assert_allclose(heights, found.blocks()["floor Wk [m/s^2]"])
     assert ax.get_lines()[1].get_ydata()[0] == found.axes[0].indices.a_wrms
+
+
+@pytest.mark.parametrize(("rate", "first"), [(200.0, 199), (199.5, 199), (200.5, 200)])
+def test_running_rms_is_drawn_from_where_its_window_is_full(rate, first):
+    """A steady tone has the same r.m.s. in every whole second; a piece of less has none to show."""
+    tone = np.sin(2 * np.pi * 4.0 * np.arange(3000) / rate)
+    pieces, starts = (tone[:1200], tone[1200:1300], tone[1300:]), (0.0, 10.0, 20.0)
+    record = AccelerationRecord("run", rate, starts, (Axis("floor", "z", pieces),))
+    found = rate_record(record)
+    ax = plots.plot_running_rms(found)
+    *lines, whole = ax.get_lines()
+    assert [line.get_xdata().size for line in lines] == [1200 - first, 0, 1700 - first]
+    assert lines[2].get_xdata()[0] == pytest.approx(20.0 + first / rate)
+    assert min(line.get_ydata().min() for line in lines[::2]) > 0.95 * whole.get_ydata()[0]
+    assert max(line.get_ydata().max() for line in lines[::2]) == found.axes[0].indices.mtvv
+    assert ax.get_ylim()[1] > whole.get_ydata()[0]
 
 
 def test_the_spectrum_holds_the_third_octaves_and_ends_at_half_the_rate():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -55,6 +56,8 @@ def plot_running_rms(
 ) -> Axes:
     """Draw an axis' running r.m.s. over 1 s and its r.m.s. in blocks of 5 s, m/s², over time, s.
 
+    The running r.m.s. begins where 1 s of the piece lies behind: before, its window is not full.
+
     rating : of ``rate_record``. column : the axis, by its column; default the first.
 
     Source: ISO 2631-1:1997, Eq (2), whose largest value is MTVV; EN 12299 (blocks).
@@ -65,14 +68,15 @@ def plot_running_rms(
     ax = canvas.axes_or_new(ax, 7.0, 2.8)
     found = axis.indices
     mtvv = "" if found.mtvv is None else f", MTVV {found.mtvv:.3g} m/s²"
-    _draw_pieces(ax, rating, axis.running, canvas.BODY, 0.8, f"running r.m.s., 1 s{mtvv}")
+    filling = math.ceil(rating.record.rate * (1 - 1e-12)) - 1  # samples whose window is not full
+    _draw_pieces(ax, rating, axis.running, canvas.BODY, 0.8, f"running r.m.s., 1 s{mtvv}", filling)
     blocks = rating.blocks()
     start, value = blocks["start [s]"], blocks[f"{axis.axis.column} {found.weighting} [m/s^2]"]
     ax.hlines(value, start, start + 5.0, color=canvas.WEIGHTED, linewidth=2.2,
               label="r.m.s. of 5 s blocks")  # fmt: skip
     ax.axhline(found.a_wrms, color=canvas.TRACK, linewidth=0.9, linestyle="--",
                label=f"whole record, {found.a_wrms:.3g} m/s²")  # fmt: skip
-    highest = max((float(piece.max()) for piece in axis.running), default=0.0)
+    highest = max(found.a_wrms, *(float(piece.max()) for piece in axis.running))
     ax.set_ylim(0.0, _ROOM * (highest or 1.0))
     ax.set_ylabel(f"{found.weighting} weighted\nr.m.s. [m/s²]")
     _over_time(ax, rating)
@@ -161,12 +165,12 @@ def _axis(rating: RecordRating, column: str | None) -> AxisRating:
 
 def _draw_pieces(
     ax: Axes, rating: RecordRating, pieces: Sequence[FloatArray], colour: str, width: float,
-    label: str,
+    label: str, left_out: int = 0,
 ) -> None:  # fmt: skip
-    """One line per piece, so that nothing is drawn over a gap."""
+    """One line per piece, so that nothing is drawn over a gap; some first samples are left out."""
     for number, (start, piece) in enumerate(zip(rating.record.starts, pieces, strict=True)):
         time = start + np.arange(piece.size) / rating.record.rate
-        ax.plot(*canvas.outline(time, piece), color=colour, linewidth=width,
+        ax.plot(*canvas.outline(time[left_out:], piece[left_out:]), color=colour, linewidth=width,
                 label=label if number == 0 else "_")  # fmt: skip
 
 
