@@ -23,12 +23,13 @@ from railride import (
 from railride.optimisation import KINDS
 from railride.optimisation.cases import cases_of
 from railride.optimisation.limits import limits_of
-from railride.optimisation.measures import GRAVITY, Measures
+from railride.optimisation.measures import Measures
 from railride.optimisation.search import MISSED, energies_of
 from railride.optimisation.task import mode_labels, task_of
 from railride.optimisation.variables import chosen_variables
 from railride.sensitivities import Derivatives
 from railride.stochastic.ride import floor_in_hand, weighted_rms_of_many
+from railride.units import STANDARD_GRAVITY
 
 PAPER = [145 / 3.6, 200 / 3.6]
 SUSPENSION = {"k_2": (4e5, 12e5), "c_2": (2e4, 15e4), "c_1": (1e4, 1e5)}
@@ -78,10 +79,10 @@ def test_values_are_those_of_the_programs_that_give_them_one_by_one():
         np.testing.assert_allclose(found[kind].value, np.concatenate(chosen), rtol=1e-9)
     loads = [t.loc[[n for n in t.index if n.startswith("wheel")], "rms"] for t in tables]
     body, bogie = model.vehicle.body, model.vehicle.bogies[0]
-    weight = GRAVITY * (body.mass + 2 * bogie.mass + 4 * bogie.wheelset_mass) / 4
+    weight = STANDARD_GRAVITY * (body.mass + 2 * bogie.mass + 4 * bogie.wheelset_mass) / 4
     variation = found["wheel_load_variation"].value
     np.testing.assert_allclose(variation, np.concatenate(loads) / weight, rtol=1e-9)
-    pressed = GRAVITY * body.mass / 2 / bogie.secondary_stiffness
+    pressed = STANDARD_GRAVITY * body.mass / 2 / bogie.secondary_stiffness
     np.testing.assert_allclose(found["secondary_static"].value, pressed, rtol=1e-9)
     for label in mode_labels(moved):
         least = min(mode.damping_ratio for mode in modes(moved) if mode.label == label)
@@ -266,7 +267,7 @@ def test_wheel_loads_are_limited_where_the_wheelsets_masses_are_known():
     assert found.a_wrms > free.a_wrms
     loads = output_statistics(found.model, PAPER[1], "erri_low").set_index("output")["rms"]
     body, bogie = model.vehicle.body, model.vehicle.bogies[0]
-    weight = GRAVITY * (body.mass + 2 * bogie.mass + 4 * bogie.wheelset_mass) / 4
+    weight = STANDARD_GRAVITY * (body.mass + 2 * bogie.mass + 4 * bogie.wheelset_mass) / 4
     largest = max(loads[name] for name in loads.index if name.startswith("wheel"))
     assert largest / weight == pytest.approx(bound, rel=1e-6)
 

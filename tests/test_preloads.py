@@ -10,7 +10,8 @@ from vehicles import paper_coach, random_vehicle
 from railride import derive_vehicle, load_vehicle
 from railride.lagrange import Coordinate, Lagrangian
 from railride.parameters import Equipment
-from railride.preloads import STANDARD_GRAVITY, Preloads, g
+from railride.preloads import Preloads, g
+from railride.units import STANDARD_GRAVITY
 
 
 def static(model):

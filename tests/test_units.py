@@ -3,15 +3,19 @@
 Expected values are conversions by hand from the SI brochure's definitions.
 """
 
+import ast
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import railride
 from railride.errors import InputError
 from railride.units import (
+    STANDARD_GRAVITY,
     QuantityError,
     parse_number_or_quantity,
     parse_quantity,
@@ -68,6 +72,16 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 )
 def test_reads_a_number_and_a_unit_as_si(text, unit, expected):
     assert parse_quantity(text, unit) == pytest.approx(expected, rel=1e-15)
+
+
+def test_the_standard_acceleration_of_free_fall_is_written_once():
+    """9.80665 m/s², 3rd General Conference on Weights and Measures (1901); as the unit g_n."""
+    assert parse_quantity("1 g_n", "m/s^2") == STANDARD_GRAVITY == 9.80665
+    near = (9.80665, 9.807, 9.81)
+    written = [path.name for path in sorted(Path(railride.__file__).parent.rglob("*.py"))
+               for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+               if isinstance(node, ast.Constant) and node.value in near]  # fmt: skip
+    assert written == ["units.py"]
 
 
 @pytest.mark.parametrize(

@@ -25,9 +25,9 @@ from railride.jets import Jets
 from railride.lagrange import Coordinate, Lagrangian, Signal
 from railride.linear import linearise
 from railride.numeric import Array, MatrixFunction
+from railride.units import STANDARD_GRAVITY
 
 g = sp.Symbol("g", positive=True)
-STANDARD_GRAVITY = 9.80665  # m/s², the 3rd General Conference on Weights and Measures, 1901
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 Number = TypeVar("Number", float, "NDArray[np.float64]")
 
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of free fall g_n, m/s²: 3rd General Conference on Weights and Measures."""
+
 # Longer texts are no quantities, and are not worth a parser's time.
 _LONGEST = 80
 

@@ -13,8 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from railride.numeric import Array, Matrices
-
-GRAVITY = 9.80665  # m/s², standard acceleration of free fall: 3rd CGPM, 1901
+from railride.units import STANDARD_GRAVITY
 
 
 def static_deflections(m: Matrices, rows: Array) -> Array:
@@ -23,5 +22,5 @@ def static_deflections(m: Matrices, rows: Array) -> Array:
     m : of one or many vehicles. rows : Y, (..., outputs, n), of deflections
     (``VehicleModel.output_rows``, "d").
     """
-    q = np.linalg.solve(m.K, -GRAVITY * (m.M @ m.lift)[..., np.newaxis])
+    q = np.linalg.solve(m.K, -STANDARD_GRAVITY * (m.M @ m.lift)[..., np.newaxis])
     return np.asarray((rows @ q)[..., 0])

@@ -22,7 +22,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from railride.designs.given import Cases
-from railride.designs.statics import GRAVITY
 from railride.errors import InputError
 from railride.numeric import Array
 from railride.optimisation.cases import cases_named, run_name, runs
@@ -44,6 +43,7 @@ from railride.stochastic.extremes import (
 )
 from railride.stochastic.gains import PLAIN, Gain, weighted
 from railride.stochastic.squares import mean_squares
+from railride.units import STANDARD_GRAVITY
 from railride.vehicle import Output, VehicleModel
 
 COMFORT = "a_wrms"
@@ -199,8 +199,8 @@ class Measures:
             for j, _ in gear.levers(b):
                 p, dp = compressed.value[j - 1], compressed.gradient[j - 1]
                 k, m = float(at.values[k_1]), float(at.values[m_w])
-                value.append(m * GRAVITY + k * p)
-                slope.append(k * dp + p * self._unit(k_1) + GRAVITY * self._unit(m_w))
+                value.append(m * STANDARD_GRAVITY + k * p)
+                slope.append(k * dp + p * self._unit(k_1) + STANDARD_GRAVITY * self._unit(m_w))
         return Values(np.array(value), np.array(slope), ())
 
     def _unit(self, symbol: str) -> Array:

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 
 from railride.designs import DesignValues, evaluate_designs
-from railride.designs.statics import GRAVITY
 from railride.numeric import Array
 from railride.optimisation.limits import Limit
 from railride.optimisation.problem import Problem
 from railride.optimisation.solve import Progress
+from railride.units import STANDARD_GRAVITY
 from railride.vehicle import VehicleModel
 
 POPULATION = 12  # designs for every parameter
@@ -134,7 +134,7 @@ def _static_loads(found: DesignValues, model: VehicleModel, designs: Mapping[str
         k_1, m_w = (values[gear.symbol(name, b).name]
                     for name in ("primary_stiffness", "wheelset_mass"))  # fmt: skip
         for j, _ in gear.levers(b):
-            loads[:, j - 1] = m_w * GRAVITY + k_1 * pressed[:, j - 1]
+            loads[:, j - 1] = m_w * STANDARD_GRAVITY + k_1 * pressed[:, j - 1]
     return loads
 
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from railride.comfort.record import Axis
 from railride.records.clock import FloatArray
 from railride.tables import Column, NumberTable
+from railride.units import STANDARD_GRAVITY
 
-STANDARD_GRAVITY = 9.80665  # m/s²
 _CLIPPED = 3  # equal samples in a row at the extreme
 _STUCK = (20, 0.2)  # equal samples in a row, and seconds, elsewhere
 # A peak's flat top of L equal samples in steps of q hides a height h ≤ q; a parabola through its

@@ -18,8 +18,9 @@ from railride.markup import (
     math,
     summands,
 )
-from railride.preloads import STANDARD_GRAVITY, Preloads
+from railride.preloads import Preloads
 from railride.report.document import Subject, listed, stacked
+from railride.units import STANDARD_GRAVITY
 
 SOLVED = 16  # static forces that are told by formulas; more are numbers
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from railride.designs.rides import suspensions
-from railride.designs.statics import GRAVITY
 from railride.numeric import Array
 from railride.sensitivities.derivatives import Tangent
+from railride.units import STANDARD_GRAVITY
 
 
 def static_deflections_with_gradient(at: Tangent) -> tuple[dict[str, float], Array]:
@@ -39,7 +39,7 @@ def static_deflections_with_gradient(at: Tangent) -> tuple[dict[str, float], Arr
     outputs = suspensions(at.derivatives.model)
     found, m = at.rows(outputs), at.m
     Y, dY = found.rows["d"], found.slopes["d"]
-    weight = -GRAVITY * np.column_stack([m.M @ m.lift, *(at.dm["M"] @ m.lift)])
+    weight = -STANDARD_GRAVITY * np.column_stack([m.M @ m.lift, *(at.dm["M"] @ m.lift)])
     q = np.linalg.solve(m.K, weight[:, 0])
     dq = np.linalg.solve(m.K, weight[:, 1:] - (at.dm["K"] @ q).T)
     deflections = (Y @ q).tolist()
