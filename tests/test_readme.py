@@ -10,6 +10,8 @@ import matplotlib as mpl
 import pytest
 from matplotlib import pyplot as plt
 
+import railride
+
 README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
 
 
@@ -27,6 +29,14 @@ def test_python_examples_run_one_after_another(tmp_path, monkeypatch):
         exec(compile(source, f"README.md, Python block {k}", "exec"), session)  # noqa: S102
     plt.close("all")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_names_in_the_table_are_public():
+    table = README.split("| name | what it is |\n|---|---|\n")[1].split("\n\n")[0]
+    first = " ".join(row.split("|")[1] for row in table.splitlines())
+    names = re.findall("`(.+?)`", first)
+    assert len(names) >= 80
+    assert [name for name in names if name not in railride.__all__] == []
 
 
 def test_the_ride_that_is_shown_is_what_is_printed(run):

@@ -31,7 +31,7 @@ _WHERE = {
     "statespace": ("state_space",),
     "frequency": ("frequency_response", "track_response"),
     "bodes": ("bode",),
-    "spectra": ("Spectrum", "read_spectrum", "spectrum", "spectrum_from_table",
+    "spectra": ("Spectrum", "fit_spectra", "read_spectrum", "spectrum", "spectrum_from_table",
                 "spectrum_names"),
     "track": ("Track", "synthesise"),
     "trackfile": ("read_track", "write_track"),
