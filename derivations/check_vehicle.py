@@ -209,8 +209,9 @@ def primary_damping() -> Claim:
         FAILS,
         f"as printed: rigid {shown(locked[0])}, flexible {change(locked[1])}",
         r"A bogie alone between track and car body, $\omega = \sqrt{(2 k_1 + k_2)/m_b}$ and "
-        r"$\zeta = (2 c_1 + c_2)/(2 m_b \omega)$, and the largest growth in one step of 1 ms of "
-        "the Euler–Cromer method that Section 4 says VAMPIRE used:",
+        r"$\zeta = (2 c_1 + c_2)/(2 m_b \omega)$, and the largest growth of any motion of the "
+        "flexible vehicle in one step of 1 ms of the Euler–Cromer method, which Section 4 says "
+        "VAMPIRE used:",
         Table(
             **columns("primary damping", "heave [Hz]", r"$\zeta$", r"$\lvert z \rvert$ per step"),
             rows=rows,

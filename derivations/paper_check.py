@@ -42,7 +42,8 @@ def opening() -> list[Block]:
             "what follows is worked out as this document is made: by deriving it again with "
             "symbols, or as numbers. “Follows” and “does not follow” are said of the claim as it "
             "is quoted; “cannot be decided” where the paper does not print what it would take, "
-            "whatever can be computed about it."
+            "whatever can be computed about it. Symbols are the paper's, with three made fit for "
+            "formulas: $m_h$ for its $m_{c,h}$, $l_b$ for bs and $l_w$ for ws."
         ),
         Paragraph(
             "What a claim does to the result is told in weighted r.m.s. accelerations "

@@ -216,7 +216,10 @@ def _numbers(own: Derivation) -> list[Block]:
     return [
         Heading("Parameters"),
         Table(("symbol", "value", "unit", "meaning"), rows, figures=("value",)),
-        Paragraph(r"Table 1 of the paper, whose $m_c$ and $L$ are those of both halves together."),
+        Paragraph(
+            r"Table 1 of the paper, whose $m_c$ and $L$ are those of both halves together; $m_h$ "
+            r"is the paper's $m_{c,h}$."
+        ),
         Heading("Natural frequency and mode"),
         Table(columns, [mode], figures=columns[2:]),
         Paragraph(r"In the mode both halves turn by the same angle in opposite senses."),

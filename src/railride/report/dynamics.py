@@ -37,8 +37,8 @@ def energies(subject: Subject) -> list[Block]:
         blocks += [Paragraph("Virtual work of the forces:"), Equation(rf"\delta W = {work}")]
     else:
         blocks.append(Paragraph(r"No further force does work, $\delta W = 0$."))
-    return [*blocks, Paragraph("Lagrange's equations, one for each coordinate:"),
-            Equation(LAGRANGE)]  # fmt: skip
+    said = r"Lagrange's equations, one for each coordinate, $\delta W = \sum_i Q_i \delta q_i$:"
+    return [*blocks, Paragraph(said), Equation(LAGRANGE)]
 
 
 def _each_segment(subject: Subject) -> list[Block]:
