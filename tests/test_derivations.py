@@ -482,3 +482,26 @@ def test_articles_compile(words, tmp_path, run):
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-2000:]
     assert "Overfull \\hbox" not in done.stdout
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX on this machine")
+def test_mathematics_of_all_documents_is_latex(tmp_path):
+    """Every formula, displayed and inline, of every Markdown document here, in one article."""
+    lines = [r"\documentclass{article}", r"\usepackage{amsmath}", r"\begin{document}"]
+    for path in sorted(FOLDER.glob("*.md")):
+        text = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"),
+                      flags=re.DOTALL | re.MULTILINE)  # fmt: skip
+        displayed = re.findall(r"^\$\$\n(.*?)\n\$\$$", text, flags=re.DOTALL | re.MULTILINE)
+        rest = re.sub(r"^\$\$\n.*?\n\$\$$", "", text, flags=re.DOTALL | re.MULTILINE)
+        assert rest.count("$") % 2 == 0, path.name
+        inline = re.findall(r"\$([^$\n]+)\$", rest)
+        lines += [rf"\[{formula}\]" for formula in displayed]
+        lines += [f"${formula}$\n" for formula in inline]
+    assert len(lines) > 500
+    article = tmp_path / "all.tex"
+    article.write_text("\n".join([*lines, r"\end{document}"]), encoding="utf-8")
+    done = subprocess.run(  # noqa: S603
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", article.name],  # noqa: S607
+        cwd=tmp_path, capture_output=True, text=True, check=False, errors="replace",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:]

@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 from pathlib import Path
 
 import nbformat
@@ -13,6 +14,7 @@ import railride
 
 FOLDER = Path(__file__).parent.parent / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+USUAL = {"railride", "numpy", "scipy", "pandas", "sympy", "matplotlib", "control", "IPython"}
 SECONDS_PER_CELL = 300  # a notebook that hangs must end; it is no measure of speed
 
 
@@ -55,8 +57,17 @@ def run(tmp_path, monkeypatch):
     return execute
 
 
-def test_there_are_notebooks():
-    assert NOTEBOOKS
+def test_all_six_are_here():
+    assert [path.stem[:2] for path in NOTEBOOKS] == ["01", "02", "03", "04", "05", "06"]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_only_railride_and_the_usual_libraries_are_imported(path):
+    """What a reader has: no helper of ours beside the package."""
+    source = "\n".join(cell.source for cell in code_cells(read(path)))
+    found = re.findall(r"^\s*(?:import|from)\s+(\w+)", source, re.MULTILINE)
+    assert "railride" in found
+    assert set(found) - sys.stdlib_module_names <= USUAL
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
