@@ -556,3 +556,13 @@ def test_counts_show_with_their_rate_and_the_time_left(monkeypatch):
 def test_undefined_numbers_are_null_in_json():
     text = output.json_text({"a": np.array([1.0, np.nan]), "b": float("inf"), "c": np.int64(3)})
     assert json.loads(text) == {"a": [1.0, None], "b": None, "c": 3}
+
+
+@pytest.mark.parametrize("command", ["sweep", "optimise", "uncertainty"])
+def test_no_picture_is_drawn_over_the_study_that_is_read(run, tmp_path, command):
+    study = tmp_path / "study.png"
+    study.write_text("[sweep]\n", encoding="utf-8")
+    code, out, err = run(command, str(study), "--plot", str(study))
+    assert (code, out) == (2, "")
+    assert "the file of STUDY" in err
+    assert study.read_text(encoding="utf-8") == "[sweep]\n"

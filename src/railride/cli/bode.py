@@ -93,10 +93,7 @@ def bode(
     places = [given.number("--at", text, "m") for text in at or ("0",)]
     f = _frequencies(given, frequencies, {"--from": lowest, "--to": highest, "--points": points})
     choices = _compared(given, choice, compare)
-    output.check_output(given.faults, "--output", to)
-    output.check_output(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle})
+    given.writes({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle})
     found: list[tuple[int | None, BodeResponse]] = []
     remarks: list[str] = []
     with working("responding"):
@@ -116,10 +113,7 @@ def bode(
     asked = {"segments": compare, "source": source, "output": signal, "unit": source or signal}
     rows = [] if form == "table" else responses.rows(found, [k for k, v in asked.items() if v])
     text = output.result(form, {"response": rows}, rows, lambda: responses.table(found), remarks)
-    output.write(text, to)
-    output.remark(remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, to, remarks, plot)
 
 
 def _compared(given: Arguments, choice: VehicleChoice, compare: str | None) -> list[VehicleChoice]:

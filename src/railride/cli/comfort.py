@@ -88,10 +88,7 @@ def comfort(
     if rate is not None and time_column is not None:
         given.conflict("--rate", f"--time-column {time_column!r}")
     written = {"--output": to, "--blocks": blocks, "--plot": plot}
-    for option, path in written.items():
-        output.check_output(given.faults, option, path)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate(written, {"the record": file})
+    given.writes(written, {"the record": file})
     given.check()
     with working("rating"):
         from railride.comfort import rate_record
@@ -109,10 +106,7 @@ def comfort(
         from railride import plots
 
         plots.save(plots.plot_record_rating(found), plot)
-    output.write(text, to)
-    output.remark(found.remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, to, found.remarks, plot)
 
 
 def _weightings(given: list[str] | None, axes: int) -> list[str | None]:

@@ -73,10 +73,7 @@ def compare(
     damping = given.number("--bending-damping", bending_damping, "")
     speeds = [given.positive("--speed", text, "km/h") for text in speed or ("145", "200")]
     places = [given.number("--at", text, "m") for text in at] if at else None
-    output.check_output(given.faults, "--output", to)
-    output.check_output(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate({"--output": to, "--plot": plot}, {"--vehicle": vehicle, "--track": track})
+    given.writes({"--output": to, "--plot": plot}, {"--vehicle": vehicle, "--track": track})
     how = reading.of(given, track)
     given.check()
     with working("comparing") as advance:
@@ -97,10 +94,7 @@ def compare(
         from railride import plots
 
         plots.save(plots.plot_comparison(found), plot)
-    output.write(text, to)
-    output.remark(found.remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, to, found.remarks, plot)
 
 
 def _row(found: Comparison, one: ComparedBody) -> dict[str, Any]:

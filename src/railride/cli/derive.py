@@ -73,11 +73,8 @@ def derive(
     if system != "vehicle" and form not in DOCUMENTS:
         given.faults.add(f"--system {system}", f"--format {form}", "markdown or latex")
     picture = _picture(form, to)
-    output.check_output(given.faults, "--output", to)
-    if picture is not None:
-        output.check_output(given.faults, "--output, its picture", picture)
-    given.separate({"--output": to, "--output, its picture": picture},
-                   {"--vehicle": choice.vehicle})  # fmt: skip
+    given.writes({"--output": to, "--output, its picture": picture},
+                 {"--vehicle": choice.vehicle})  # fmt: skip
     if system.startswith("half-body"):
         _write_half_body(given, system, form, nonlinear, choice.given(), to, picture)
         return
@@ -90,8 +87,7 @@ def derive(
             if form in DOCUMENTS
             else _as_text(model, form, nonlinear, remarks)
         )
-    output.write(text, to)
-    output.remark(remarks)
+    output.deliver(text, to, remarks)
 
 
 def _picture(form: str, to: str | None) -> str | None:

@@ -87,12 +87,7 @@ def comfort_map(
     given.choice("--floor", floor, options.FLOORS)
     speeds = _speeds(given, speed, {"--from": lowest, "--to": highest, "--points": points})
     places = [given.number("--at", text, "m") for text in at] if at else None
-    output.check_output(given.faults, "--output", to)
-    output.check_output(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate(
-        {"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track}
-    )
+    given.writes({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track})
     how = reading.of(given, track)
     with working("mapping") as advance:
         model = choice.model(given)
@@ -111,10 +106,7 @@ def comfort_map(
     title = f"{found.attrs['of']}, {found.attrs['weighting']} weighted"
     text = output.result(form, {"track": found.attrs["track"], "map": rows}, rows,
                          lambda: _table(found, title), remarks)  # fmt: skip
-    output.write(text, to)
-    output.remark(remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, to, remarks, plot)
 
 
 def _speeds(given: Arguments, listed: list[str] | None, band: dict[str, str | None]) -> list[float]:

@@ -78,11 +78,7 @@ def modes(
     """
     given = Arguments()
     given.choice("--format", form, FORMATS)
-    for option, path in (("--output", to), ("--plot", plot), ("--animate", animate)):
-        output.check_output(given.faults, option, path)
-    output.check_picture(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--animate", animate, (".gif",))
-    given.separate(
+    given.writes(
         {"--output": to, "--plot": plot, "--animate": animate}, {"--vehicle": choice.vehicle}
     )
     _check_together(given, vary, {"--from": first, "--to": last, "--points": points,
@@ -97,11 +93,7 @@ def modes(
             text = loci.result(model, form, varied, plot)
         else:
             text = _modes(model, form, plot, animate, mode, drawn, remarks)
-    output.write(text, to)
-    output.remark(remarks)
-    for path in (plot, animate):
-        if path is not None:
-            typer.echo(f"drawn: {path}", err=True)
+    output.deliver(text, to, remarks, plot, animate)
 
 
 def _check_together(

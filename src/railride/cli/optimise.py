@@ -50,10 +50,7 @@ def optimise(
     given = Arguments()
     given.choice("--format", form, FORMATS)
     written = {"--output": to, "--vehicle-file": vehicle_file, "--plot": plot}
-    for option, path in written.items():
-        output.check_output(given.faults, option, path)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate(written, {"STUDY.toml": study})
+    given.writes(written, {"STUDY.toml": study})
     given.check()
     with working("optimising") as advance:
         from railride.optimisation import read_task
@@ -75,14 +72,11 @@ def optimise(
         write_vehicle(found.vehicle(), vehicle_file)
     if drawn is not None and plot is not None:
         plots.save(drawn, plot)
-    output.write(text, to)
-    output.remark(found.remarks)
+    output.deliver(text, to, found.remarks, plot)
     if vehicle_file is not None:
         typer.echo(
             f"written: {vehicle_file}; ride it: {_ride(read, found, vehicle_file)}", err=True
         )
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
 
 
 def _document(found: Optimum) -> dict[str, Any]:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+from railride.cli import output
 from railride.errors import Faults
-
-if TYPE_CHECKING:
-    pass
 
 FORMATS = ("table", "json", "csv")
 FLOORS = ("smooth", "polygon", "spline")
@@ -111,8 +109,14 @@ class Arguments:
         """Note two options that cannot go together."""
         self.faults.add(option, f"{other} with it", "one of the two", mend)
 
-    def separate(self, written: dict[str, str | None], read: dict[str, str | None]) -> None:
-        """Note a file that would be written over another one, or over what is read."""
+    def writes(self, written: dict[str, str | None], read: dict[str, str | None]) -> None:
+        """Note files, by their options, that cannot be written, or only over one another.
+
+        written : by the command; read : by it, which nothing is written over.
+        """
+        for option, name in written.items():
+            output.check_output(self.faults, option, name)
+            output.check_picture(self.faults, option, name)
         taken: dict[Path, str] = {}
         for option, name in [*read.items(), *written.items()]:
             if name is None or "\0" in name or not Path(name).name:

@@ -22,7 +22,7 @@ from railride.errors import Faults, InputError
 
 P = ParamSpec("P")
 
-PICTURES = (".png", ".pdf", ".svg")
+PICTURES = {"--plot": (".png", ".pdf", ".svg"), "--animate": (".gif",)}  # kinds by the option
 INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
 _TOO_MUCH = (
     "railride: found too little memory for what was asked; expected it to fit (a shorter track, a "
@@ -88,12 +88,10 @@ def check_output(faults: Faults, option: str, path: str | None) -> None:
         faults.add(where, _reason(error), "the name of a file", "choose another name")
 
 
-def check_picture(
-    faults: Faults, option: str, path: str | None, suffixes: Sequence[str] = PICTURES
-) -> None:
-    """Note a file whose suffix asks for no kind of picture that can be drawn."""
-    suffix = "" if path is None else Path(path).suffix
-    if path is not None and suffix.lower() not in suffixes:
+def check_picture(faults: Faults, option: str, path: str | None) -> None:
+    """Note a picture's file whose suffix asks for no kind that can be drawn."""
+    suffix, suffixes = Path(path or "").suffix, PICTURES.get(option, ())
+    if path is not None and suffixes and suffix.lower() not in suffixes:
         one_of = "one of " if len(suffixes) > 1 else ""
         faults.add(f"{option} {path!r}", f"the suffix {suffix!r}" if suffix else "no suffix",
                    one_of + ", ".join(suffixes), "it says which kind to draw")  # fmt: skip
@@ -149,10 +147,12 @@ def result(form: str, document: Mapping[str, Any], rows: Sequence[Mapping[str, A
     return csv_text(rows) if form == "csv" else table()
 
 
-def remark(remarks: Iterable[str]) -> None:
-    """Remarks to standard error, each on a line of its own."""
-    for line in remarks:
-        typer.echo(f"remark: {line}", err=True)
+def deliver(text: str, path: str | None, remarks: Iterable[str], *drawn: str | None) -> None:
+    """Write the result; then remarks and the pictures' files to standard error, a line for each."""
+    write(text, path)
+    for line in (*(f"remark: {said}" for said in remarks),
+                 *(f"drawn: {picture}" for picture in drawn if picture is not None)):  # fmt: skip
+        typer.echo(line, err=True)
 
 
 def json_text(document: Mapping[str, Any]) -> str:

@@ -132,9 +132,8 @@ def ride(
     number = given.whole("--seed", seed, 0, options.LARGEST_SEED)
     if spectral and plots is not None:
         given.conflict("--plots", "--spectral", "leave one of the two out: only a run can be drawn")
-    output.check_output(given.faults, "--output", to)
     output.check_folder(given.faults, "--plots", plots)
-    given.separate({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
+    given.writes({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
     how = reading.of(given, track)
     with working("riding") as advance:
         model = choice.model(given)
@@ -162,10 +161,7 @@ def ride(
         lambda: "\n".join([_table(found), *(detail.table for detail in details)]),
         remarks,
     )  # fmt: skip
-    output.write(text, to)
-    output.remark(remarks)
-    if drawn:
-        typer.echo(f"drawn: {drawn}", err=True)
+    output.deliver(text, to, remarks, drawn)
 
 
 def _idle(

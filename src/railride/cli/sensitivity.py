@@ -87,12 +87,7 @@ def sensitivity(
     if share is not None and not 0 < share < 1:
         given.faults.add("--change", repr(change), "a share above 0 and below 1",
                          'such as 0.1 or "10 %"')  # fmt: skip
-    output.check_output(given.faults, "--output", to)
-    output.check_output(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate(
-        {"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track}
-    )
+    given.writes({"--output": to, "--plot": plot}, {"--vehicle": choice.vehicle, "--track": track})
     how = reading.of(given, track)
     with working("differentiating"):
         model = choice.model(given)
@@ -108,10 +103,7 @@ def sensitivity(
             plots.save(plots.plot_tornadoes(found), plot)
     remarks = [*model.vehicle.remarks, *model.remarks, *found.remarks]
     text = output.result(form, _document(found), _flat(found), lambda: _table(found), remarks)
-    output.write(text, to)
-    output.remark(remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, to, remarks, plot)
 
 
 def _document(found: Sensitivities) -> dict[str, Any]:

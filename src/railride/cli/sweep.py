@@ -67,8 +67,7 @@ def sweep(
         given.conflict("--workers", "--scheduler")
     folder = f"{Path(study).stem}_results" if to is None else to
     output.check_folder(given.faults, "--output", folder)
-    output.check_output(given.faults, "--plot", plot)
-    output.check_picture(given.faults, "--plot", plot)
+    given.writes({"--plot": plot}, {"STUDY": study})
     given.check()
     with counting("sweeping", "designs") as advance:
         from railride import sweeps
@@ -83,10 +82,7 @@ def sweep(
         plots.save(figure, plot)
     text = output.result(form, _document(found), _flat(found), lambda: _table(found),
                          found.remarks)  # fmt: skip
-    output.write(text, None)
-    output.remark(found.remarks)
-    if plot is not None:
-        typer.echo(f"drawn: {plot}", err=True)
+    output.deliver(text, None, found.remarks, plot)
 
 
 def _document(found: SweepResult) -> dict[str, Any]:

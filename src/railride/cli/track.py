@@ -88,10 +88,7 @@ def track(
     metres, how = given.positive("--length", length, "m"), reading.arguments(given, step)
     number = given.whole("--seed", seed, 0, options.LARGEST_SEED)
     written = {"--output": to, "--write": write, "--plot": plot}
-    for option, path in written.items():
-        output.check_output(given.faults, option, path)
-    given.separate(written, {"the track": file, "--spectrum": spectrum})
-    output.check_picture(given.faults, "--plot", plot)
+    given.writes(written, {"the track": file, "--spectrum": spectrum})
     given.check()
     source, found = _read(file, how) if file is not None else _make(
         spectrum or "erri_low", extrapolate, metres or 1000.0, how.get("step", 0.25),
@@ -112,8 +109,7 @@ def track(
         from railride import plots
 
         plots.save(plots.plot_track_overview(found, source, fits=fits), plot)
-    output.write(text, to)
-    output.remark(remarks)
+    output.deliver(text, to, remarks)
 
 
 def _make(

@@ -50,10 +50,7 @@ def uncertainty(
     given = Arguments()
     given.choice("--format", form, FORMATS)
     written = {"--output": to, "--plot": plot, "--designs": designs}
-    for option, path in written.items():
-        output.check_output(given.faults, option, path)
-    output.check_picture(given.faults, "--plot", plot)
-    given.separate(written, {"STUDY": study})
+    given.writes(written, {"STUDY": study})
     given.check()
     with working("sampling") as advance:
         from railride.studies import read_study
@@ -69,11 +66,9 @@ def uncertainty(
     text = output.result(form, _document(found), _flat(found), lambda: _table(found), remarks)
     if designs is not None:
         output.write(found.samples().to_csv(index=False, lineterminator="\n"), designs)
-    output.write(text, to)
-    output.remark(remarks)
-    for what, path in (("drawn", plot), ("written", designs)):
-        if path is not None:
-            typer.echo(f"{what}: {path}", err=True)
+    output.deliver(text, to, remarks, plot)
+    if designs is not None:
+        typer.echo(f"written: {designs}", err=True)
 
 
 def _document(found: Uncertainty) -> dict[str, Any]:
