@@ -303,6 +303,48 @@ def test_unstable_designs_are_not_integrated(monkeypatch):
     assert "unstable" in found.problems[1]
 
 
+@pytest.mark.parametrize("segments", [1, 2, 4])
+def test_what_rounding_takes_is_stated_or_nothing_is_given(segments):
+    """Suspensions that are next to rigid, against the limit 1/k_2 → 0 from those that are not."""
+    model = paper_coach(segments)
+
+    def a_w(**designs):
+        found = evaluate_designs(model, designs, "erri_low", 145 * KMH, floor="polygon")
+        return found.a_wrms.ravel(), found.error, found.problems
+
+    (soft, stiff), _, _ = a_w(k_2=[1e11, 1e12])
+    rigid = (10 * stiff - soft) / 9
+    found, error, problems = a_w(
+        k_2=[1e14, 1e15, 1e16, 1e17, 1e18, 1e16, 7.5e5, 7.5e5, 7.5e5],
+        c_2=[7e4, 7e4, 7e4, 7e4, 7e4, 1e14, 1e14, 1e16, 1e18],
+    )
+    off, lost = np.abs(found / rigid - 1), np.isnan(found)
+    assert (off[~lost] <= error[~lost] + 1e-8).all()  # 1e-8: what the limit is known to
+    assert (error[~lost] <= 1e-2).all()
+    assert not lost[[0, 1, 2, 6]].any()
+    assert [bool(problem) for problem in problems] == lost.tolist()
+
+
+@pytest.mark.parametrize(
+    ("design", "said"),
+    [
+        ({"c_2": 1e20}, "rounding decides"),
+        ({"k_2": 1e12, "c_2": 1e200}, "rounding decides"),
+        ({"c_2": 1e308}, "no finite number"),
+        ({"c_2": 1e305, "m_b": 1e-4}, "too large or too small"),
+    ],
+)
+def test_what_is_worthless_is_not_given(design, said):
+    for segments in (1, 2):
+        for results in ("a_wrms", "travel"):
+            found = evaluate_designs(paper_coach(segments), design, "erri_low", 40.0,
+                                     results=results)  # fmt: skip
+            value = found.a_wrms if results == "a_wrms" else found.travel_rms[..., :2]
+            assert np.isnan(value).all()
+            assert said in found.problems[0]
+            assert "1 of 1 designs lack values" in found.remarks[0]
+
+
 def test_all_that_cannot_be():
     found = evaluate_designs(paper_coach(1), {"k_2": [-1.0, -2.0]}, "erri_low", SPEEDS)
     assert np.isnan(found.a_wrms).all()

@@ -299,7 +299,8 @@ def test_spectra_that_are_not_rational_are_integrated(of):
     found, error = mean_squares(m, rows, places, [V], spectrum(of), GAINS)
     by_rule = process(m, rows, places, V, spectrum(of), GAINS).integrals()
     np.testing.assert_array_equal(found[0, 0], by_rule.mean_square)
-    np.testing.assert_array_equal(error[0, 0], by_rule.error)
+    assert (error[0, 0] >= by_rule.error).all()  # that of the equations comes to it
+    np.testing.assert_allclose(error[0, 0], by_rule.error, rtol=0, atol=1e-12)
 
 
 # Outputs that feel the track at once

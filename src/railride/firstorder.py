@@ -59,6 +59,7 @@ def first_order(m: Matrices) -> FirstOrder:
     return first_orders(m)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # refused where it comes to that
 def first_orders(m: Matrices) -> FirstOrder:
     """The first-order form of one or many vehicles' matrices, (...,) before every shape.
 
@@ -83,6 +84,11 @@ def first_orders(m: Matrices) -> FirstOrder:
     a_f[..., i, :] = inverse @ (np.eye(n)[i] - m.C[..., i, :] @ v_f)
     A = np.concatenate([v_x[..., order, :], a_x[..., i, :]], axis=-2)
     B = np.concatenate([v_f[..., order, :], a_f[..., i, :]], axis=-2)
+    if not np.isfinite(A).all():
+        raise InputError(
+            "parameters: found springs, dampers or masses too large or too small to calculate "
+            "with; expected those of a vehicle (check their units)"
+        )
     return FirstOrder(A, B, q_x, v_x, v_f, a_x, a_f, inertial, order)
 
 

@@ -69,7 +69,8 @@ class MatrixFunction:
                              "for every symbol of the model")  # fmt: skip
         arrays = [np.asarray(values[s.name], dtype=float) for s in self.symbols]
         shape = np.broadcast_shapes(*(a.shape for a in arrays))
-        found = self._evaluate(*arrays)
+        with np.errstate(over="ignore"):  # refused as soon as something is done with it
+            found = self._evaluate(*arrays)
         if not shape:
             stacked = np.array(found, dtype=float)
         elif found:

@@ -14,11 +14,20 @@ and others, with y = C_x x + E F + (W_0 + s W_1 + s² W_2) w and p = 0,
 
 .. math:: d_0 = C_x B C_w + E K_w + W_0, \quad d_1 = E C_w + W_1, \quad d_2 = W_2 .
 
+The entries of the matrices are rounded. Where they differ by many powers of ten, as with a spring
+that is next to rigid, what the small ones say is lost in the large ones, which moves p_k by up to
+
+.. math:: \varepsilon\, |u_k| \big(|K| + |p_k| |C| + |p_k|^2 |M|\big) |q_x v_k|, \qquad
+          u_k = (V^{-1} B)_{k\cdot}
+
+with the absolute values of the entries, and as computed by at least ε max|p|.
+
 Eigenvalues that coincide do no harm as long as their eigenvectors do not: how far the fractions are
 from the equations of motion is measured.
 
 Source: L. Meirovitch, Fundamentals of Vibrations, McGraw-Hill 2001, Section 7.16, with what the
-elevations do at once (a primary deflection's own, a wheel load's wheelset) kept beside the modes.
+elevations do at once (a primary deflection's own, a wheel load's wheelset) kept beside the modes;
+F. Tisseur, Linear Algebra Appl. 309 (2000) 339-361 (eigenvalues of rounded matrices).
 """
 
 from __future__ import annotations
@@ -34,6 +43,7 @@ from railride.numeric import Array, Matrices
 
 Complex = NDArray[np.complex128]
 
+_EPSILON = float(np.finfo(float).eps)
 _PAIRS = (("d", "w"), ("v", "dw"), ("a", "ddw"))  # rows that feel the p-th rates of q and w
 
 
@@ -42,7 +52,8 @@ class EigenForms:
     """D vehicles in their eigenvectors, for all of their outputs.
 
     m : their matrices. x : their first-order form. poles : p_k (D, s). vectors : V (D, s, s).
-    into : V⁻¹ B (K_w + p C_w), (D, s, wheelsets).
+    into : V⁻¹ B (K_w + p C_w), (D, s, wheelsets). moved : how far rounding may have moved each of
+    the poles, rad/s, (D, s).
     """
 
     m: Matrices
@@ -50,33 +61,46 @@ class EigenForms:
     poles: Complex
     vectors: Complex
     into: Complex
+    moved: Array
 
 
 def eigen_forms(m: Matrices) -> EigenForms:
     """Of one or many vehicles; where one has too few eigenvectors, its fractions are none."""
-    x, wheelsets = first_orders(m), m.K_w.shape[-1]
+    x = first_orders(m)
     poles, V = (part.astype(complex) for part in np.linalg.eig(_many(x.A)))
-    B_w = _many(x.B @ np.concatenate([m.K_w, m.C_w], axis=-1))
+    B = _many(x.B)
     try:
-        into = np.linalg.solve(V, B_w.astype(complex))
+        u = np.linalg.solve(V, B.astype(complex))
     except np.linalg.LinAlgError:  # two eigenvectors are one to the last bit
-        into = np.linalg.pinv(V) @ B_w
-    into = into[..., :wheelsets] + poles[..., np.newaxis] * into[..., wheelsets:]
-    return EigenForms(m, x, poles, V, into)
+        u = np.linalg.pinv(V) @ B
+    with np.errstate(all="ignore"):  # what comes of it is not finite, and not trusted
+        into = u @ _many(m.K_w) + poles[..., np.newaxis] * (u @ _many(m.C_w))
+        moved = _EPSILON * np.maximum(np.abs(poles).max(axis=-1, keepdims=True),
+                                      _felt(m, np.abs(poles), u, x.q_x @ V))  # fmt: skip
+    return EigenForms(m, x, poles, V, into, moved)
+
+
+def _felt(m: Matrices, size: Array, u: Complex, q: Complex) -> Array:
+    """|u_k| (|K| + |p_k| |C| + |p_k|² |M|) |q_k|, (D, s), of q (D, n, s) and |p| (D, s)."""
+    q, size = np.abs(q), size[:, np.newaxis]
+    force = np.abs(_many(m.K)) @ q
+    force += size * (np.abs(_many(m.C)) @ q + size * (np.abs(_many(m.M)) @ q))
+    return np.asarray((np.abs(u) * np.swapaxes(force, -1, -2)).sum(axis=-1))
 
 
 @dataclass(frozen=True, eq=False)
 class PartialFractions:
     """g of D vehicles.
 
-    power : p. poles : (D, s). residues : (D, s, outputs · wheelsets). direct : d (D, terms, outputs
-    · wheelsets), none where all vanish. M, C, K (D, n, n), K_w, C_w (D, n, wheelsets) : what they
-    are of; and Y (D, terms, n, outputs), W (D, terms, outputs, wheelsets), polynomials in s, by
-    which g = Y q + W w.
+    power : p. poles, moved : (D, s). residues : (D, s, outputs · wheelsets). direct : d (D, terms,
+    outputs · wheelsets), none where all vanish. M, C, K (D, n, n), K_w, C_w (D, n, wheelsets) :
+    what they are of; and Y (D, terms, n, outputs), W (D, terms, outputs, wheelsets), polynomials in
+    s, by which g = Y q + W w.
     """
 
     power: int
     poles: Complex
+    moved: Array
     residues: Complex
     direct: Array
     M: Array
@@ -143,6 +167,7 @@ def partial_fractions(of: EigenForms, rows: Mapping[str, Array]) -> PartialFract
     return PartialFractions(
         power=felt[0] if len(felt) == 1 else 0,
         poles=of.poles,
+        moved=of.moved,
         residues=residues.reshape(*of.poles.shape, -1),
         direct=_terms(direct, D).reshape(D, -1, outputs) if direct else np.zeros((D, 0, outputs)),
         M=_many(m.M),

@@ -24,6 +24,7 @@ from railride.errors import InputError
 from railride.frequency import Triangular, triangular
 from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum, check_speed
+from railride.stochastic.fractions import eigen_forms
 from railride.stochastic.gains import PLAIN, Gain
 from railride.stochastic.quadrature import distances, gauss_errors, gauss_points, graded_panels
 
@@ -66,7 +67,7 @@ class Process:
 
     form : the vehicle in triangular form. rows, direct : of the outputs. into : the states from
     elevations, then from their rates. delays : of the wheelsets, s. speed : m/s. edges : of the
-    panels, Hz. gains : the weightings whose poles the panels respect.
+    gains : the weightings whose poles the panels respect. moved : pairs of an eigenvalue and how
     """
 
     form: Triangular
@@ -78,6 +79,7 @@ class Process:
     spectrum: Spectrum
     edges: Array
     gains: tuple[Gain, ...]
+    moved: Complex | None = None
 
     @property
     def eigenvalues(self) -> Complex:
@@ -143,13 +145,19 @@ class Process:
     def _rounding(self) -> Array:
         """Relative error of every panel's integral from the rounding of the poles beside it.
 
-        They are known to ε max|λ|; half the distance to a pole makes the integrand four times.
+        Half the distance to a pole makes the integrand four times.
         """
         poles = self.eigenvalues / (2j * np.pi)
         moved = _EPSILON * np.abs(poles).max()
-        poles = poles[(poles.real >= 0) & (np.abs(poles.imag) < 0.1)]  # others: hardly moved
-        away = np.minimum(distances(self.edges[:-1], self.edges[1:], poles), 0.1)
-        return np.asarray(10 * _EPSILON + 2 * moved / np.maximum(away, moved))
+        near = poles[(poles.real >= 0) & (np.abs(poles.imag) < 0.1)]  # others: hardly moved
+        away = np.minimum(distances(self.edges[:-1], self.edges[1:], near), 0.1)
+        found = 2 * moved / np.maximum(away, moved)
+        for root, far in () if self.moved is None else self.moved / (2 * np.pi):
+            if not np.isfinite(far):
+                return np.full(found.shape, np.inf)
+            away = distances(self.edges[:-1], self.edges[1:], np.array([root / 1j]))
+            found = np.maximum(found, 2 * far.real / np.maximum(away, far.real))
+        return np.asarray(10 * _EPSILON + found)
 
 
 def refuse_lines(undamped: Array, in_line: Array, mean_square: Array) -> None:
@@ -227,6 +235,7 @@ def process(
     form = triangular(m) if form is None else form
     delays = (places[0] - np.asarray(places, dtype=float)) / speed
     edges = panel_edges(form, delays, speed, spectrum, gains, band, ends)
+    forms = eigen_forms(m)
     return Process(
         form,
         tuple((p, rows[k] @ form.left) for p, k in enumerate("dva") if rows[k].any()),
@@ -237,6 +246,7 @@ def process(
         spectrum,
         edges,
         tuple(gains),
+        np.stack([forms.poles[0], forms.moved[0].astype(complex)], axis=-1),
     )
 
 

@@ -11,7 +11,8 @@ the residue there is that of K with -r_jk in place of g_j(-s). With Φ(s), |s^p|
 axis, the mean square is an integral as :mod:`railride.stochastic.contour` closes it.
 
 The error stated is that of the rule on the contour's panels, of rounding in the sums, of the poles,
-known to ε max|p|, and of the fractions, checked at the resonances of the modes that count most.
+as far as rounding moves them, and of the fractions, checked at the resonances of the modes that
+count most.
 
 Source: D.E. Newland, Random Vibrations, Spectral and Wavelet Analysis, 3rd ed., Appendix 1 (mean
 squares of rational spectra), with the delays and the band added.
@@ -148,8 +149,8 @@ def _integrals(
     by_panel = on_panels.reshape(*on_panels.shape[:-1], lengths.size, POINTS)
     errors = gauss_errors(by_panel, lengths).sum(axis=-1)
     errors += 10 * _EPSILON * np.abs(parts).sum(axis=2)
-    moved = np.abs(g.poles).max(axis=-1, keepdims=True) / np.abs(g.poles.real)
-    errors += _EPSILON * np.einsum("dgso,ds->dgo", size, 10 + _CAUTION * moved)
+    moved = 10 * _EPSILON + _CAUTION * g.moved / np.abs(g.poles.real)
+    errors += np.einsum("dgso,ds->dgo", size, moved)
     return parts.sum(axis=2) + shares.sum(axis=2).real, errors, size
 
 

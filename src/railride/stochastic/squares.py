@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import reduce
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +14,12 @@ from railride.numeric import Array, Matrices
 from railride.spectra import Spectrum, check_speed
 from railride.stochastic.fractions import EigenForms
 from railride.stochastic.gains import PLAIN, Gain
-from railride.stochastic.process import BAND_HZ, covered_band, process
+from railride.stochastic.process import BAND_HZ, Process, covered_band, process, relative
 from railride.stochastic.residues import residue_squares
 
 TRUSTED = 1e-8  # relative error of a residue sum above which it is integrated after all
+_DAMPED = 1e-6  # damping ratio from which a resonance is one to look at
+WORTHLESS = 2e-2  # relative error of a mean square above which it is none: of its root, 1 %
 
 
 def mean_squares(
@@ -46,7 +49,8 @@ def mean_squares(
     Raises
     ------
     InputError : no speeds, a speed ≤ 0, a spectrum with nothing in the band; of one vehicle, one
-        that is unstable, or in whose output an undamped mode takes part.
+        that is unstable, in whose output an undamped mode takes part, or of which rounding decides
+        an output.
     """
     squares, errors, refused = squares_of_many(m, rows, places, speeds, spectrum, gains, band)
     if refused and m.M.ndim == 2:
@@ -91,15 +95,60 @@ def squares_of_many(
         vehicle = _one(m, rows, d)
         own = (places[d] if places.ndim > 1 else places).tolist()
         try:
-            by_rule = process(*vehicle, own, speeds[k], spectrum, gains, band=band).integrals()
+            with np.errstate(all="ignore"):  # what comes of it is not finite, and given up
+                p = process(*vehicle, own, speeds[k], spectrum, gains, band=band)
+                by_rule, off = p.integrals(), _mismatch(p, *vehicle)
         except InputError as error:
             squares[d, k], errors[d, k] = np.nan, np.inf
             refused.setdefault(d, str(error))
             continue
         replace = doubtful[d, k]
         squares[d, k][replace] = by_rule.mean_square[replace]
-        errors[d, k][replace] = by_rule.error[replace]
+        errors[d, k][replace] = (by_rule.error + off)[replace]
+    _refuse_worthless(squares, errors, rows, refused)
     return squares, errors, refused
+
+
+def _mismatch(p: Process, m: Matrices, rows: Mapping[str, Array]) -> Array:
+    """How far squares of outputs are from the equations of motion as they stand, relative.
+
+    At the resonances of the damped modes in the band; (gains, outputs).
+    """
+    roots = p.eigenvalues[-p.eigenvalues.real > _DAMPED * np.abs(p.eigenvalues)]
+    f = np.unique(np.abs(roots) / (2 * np.pi))
+    f = f[(f > p.edges[0]) & (f < p.edges[-1])]
+    if not f.size:
+        return np.zeros((len(p.gains), rows["d"].shape[-2]))
+    s = 2j * np.pi * f
+    w = np.exp(-p.delays[:, np.newaxis] * s)
+    D = m.K + s[:, np.newaxis, np.newaxis] * (m.C + s[:, np.newaxis, np.newaxis] * m.M)
+    force = m.K_w @ w + m.C_w @ (s * w)
+    try:
+        q = np.linalg.solve(D, force.T[..., np.newaxis])[..., 0].T
+    except np.linalg.LinAlgError:  # to the last bit: nothing to compare with
+        return np.full((len(p.gains), rows["d"].shape[-2]), np.inf)
+    exact = (rows["d"] @ q + rows["w"] @ w + s * (rows["v"] @ q + rows["dw"] @ w)
+             + s**2 * (rows["a"] @ q + rows["ddw"] @ w))  # fmt: skip
+    felt = np.sqrt([gain.power(f) * p.elevation_density(f) for gain in p.gains])[:, np.newaxis]
+    off = (felt * np.abs(p.response(f) - exact)).max(axis=-1)
+    return 2 * relative(off, (felt * np.abs(exact)).max(axis=-1))
+
+
+def _refuse_worthless(
+    squares: Array, errors: Array, rows: Mapping[str, Array], refused: dict[int, str]
+) -> None:
+    """Give up values that rounding decides: of large errors, not finite, or 0 of what moves."""
+    moves = reduce(np.logical_or, [(row != 0).any(axis=-1) for row in rows.values()])
+    moves = moves.reshape(-1, 1, 1, moves.shape[-1])
+    lost = ~((errors <= WORTHLESS) & (squares < np.inf) & ((squares > 0) | ~moves))
+    for d in np.flatnonzero(lost.any(axis=(1, 2, 3))).tolist():
+        error = np.where(np.isfinite(errors[d]), errors[d], 0.0)[lost[d]].max() / 2
+        found = f"an error of {error:.0e} of the value" if error else "a value of no meaning"
+        refused.setdefault(
+            d, f"vehicle: found that rounding decides the motion asked for ({found}); expected "
+            "springs, dampers and masses that differ by fewer powers of ten (check their units)"
+        )  # fmt: skip
+    squares[lost], errors[lost] = np.nan, np.inf
 
 
 def _unstable(forms: EigenForms) -> dict[int, str]:
