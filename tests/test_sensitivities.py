@@ -353,7 +353,7 @@ def test_parameters_that_cannot_change_are_left_out_or_refused():
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [(["k_3"], "found 'k_3'.*did you mean"), (["k_2", "secondary_stiffness"], "found k_2 twice"),
-     ([], "found none")],
+     ([], "found none"), (3, "parameters: found 3"), ([3], "found '?3")],
 )  # fmt: skip
 def test_wrong_parameters(parameters, message):
     with pytest.raises(InputError, match=message):

@@ -98,7 +98,7 @@ class ParameterValues:
         keys = {key: symbol for key, symbol in keys.items() if symbol in symbols}
         if name in symbols or name in keys:
             return str(keys.get(name, name))
-        near = difflib.get_close_matches(name, [*symbols, *keys], n=3)
+        near = difflib.get_close_matches(str(name), [*symbols, *keys], n=3)
         listed = ", ".join(f"{s} ({meaning})" for s, meaning in sorted(symbols.items()))
         hint = f" (did you mean {' or '.join(near)}?)" if near else ""
         raise InputError(f"parameters: found {name!r}; expected one of {listed}{hint}")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import Field, fields
-from numbers import Real
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
 from railride.errors import Faults, InputError
@@ -84,6 +84,19 @@ def check_number(faults: Faults, where: str, value: object, sign: str = "", unit
         faults.add(where, repr(value), _EXPECTED[sign], f"in {unit}" if unit else "")
 
 
+def check_whole(value: object, where: str, least: int) -> None:
+    """Refuse, by an InputError that names ``where``, what is no whole number of at least that.
+
+    >>> check_whole(2, "workers", least=1)
+    >>> check_whole(1.5, "workers", least=1)
+    Traceback (most recent call last):
+    ...
+    railride.errors.InputError: workers: found 1.5; expected a whole number, at least 1
+    """
+    if not isinstance(value, Integral) or isinstance(value, bool) or value < least:
+        raise InputError(f"{where}: found {value!r}; expected a whole number, at least {least}")
+
+
 def names(values: object, where: str) -> list[Any]:
     """One name, or several and at least one, as a list; InputError that names ``where`` otherwise.
 
@@ -108,6 +121,8 @@ def several(values: ArrayLike, where: str, unit: str = "SI units") -> list[float
     import numpy as np
 
     try:
+        if values is None:  # to numpy, not a number
+            raise TypeError
         return [float(value) for value in np.atleast_1d(np.asarray(values, dtype=float))]
     except (TypeError, ValueError):
         raise InputError(f"{where}: found {values!r}; expected numbers, in {unit}") from None

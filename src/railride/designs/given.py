@@ -60,7 +60,10 @@ def given_cases(
                          f"{', '.join(RESULTS)}")  # fmt: skip
     V = _each_once(several(speeds, "speeds", "m/s"), "speeds")
     places = _each_once(several(at, "at", "m"), "at")
-    listed = [tracks] if isinstance(tracks, str | Path | Spectrum | Track) else list(tracks)
+    if isinstance(tracks, str | Path | Spectrum | Track):
+        listed = [tracks]
+    else:
+        listed = names(tracks, "tracks")
     found = [track_spectrum(track, V) for track in listed]
     _each_once([spectrum.name for spectrum, _ in found], "tracks")
     said = dict.fromkeys(remark for _, remarks in found for remark in remarks)
@@ -78,6 +81,9 @@ def given_designs(
     InputError : a name that the model does not have, or two for one parameter; values that are no
         numbers, in no list, of different lengths; no designs at all.
     """
+    if not hasattr(designs, "items"):
+        raise InputError(f"designs: found {type(designs).__name__}; expected a table or dictionary "
+                         "of parameters' names and values")  # fmt: skip
     given = {str(name): _numbers(str(name), values) for name, values in designs.items()}
     symbols: dict[str, str] = {}
     for name in given:

@@ -91,6 +91,9 @@ def limits_of(
         whose wheelsets' mass is not known.
     """
     faults, found = Faults("limits"), list[Limit]()
+    if not isinstance(given, Mapping):
+        faults.add("optimisation", repr(given), "a dictionary, kind → bound")
+        faults.raise_if_any()
     for name, bound in given.items():
         if name not in KINDS:
             near = difflib.get_close_matches(name, KINDS, n=2)

@@ -83,6 +83,9 @@ def chosen_variables(model: VehicleModel, ranges: Ranges) -> tuple[Variable, ...
         cannot have.
     """
     faults, found = Faults("parameters"), dict[str, Variable]()
+    if not isinstance(ranges, Mapping):
+        faults.add("optimisation", repr(ranges), "a dictionary, name → lower and upper bound")
+        faults.raise_if_any()
     if not ranges:
         faults.add("optimisation", "none", "at least one parameter, with its range")
     positive = {p.symbol.name: p.symbol.is_positive for p in model.parameters}

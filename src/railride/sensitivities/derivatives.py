@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from railride.errors import InputError
 from railride.linear import output_rows
 from railride.numeric import Array, Matrices, MatrixDerivative, MatrixFunction
+from railride.quantities import names
 from railride.sensitivities.chain import Chain
 from railride.vehicle import Output, VehicleModel
 
@@ -131,7 +132,7 @@ class Derivatives:
 
     def _named(self, parameters: Sequence[str]) -> tuple[str, ...]:
         found, faults = [], []
-        for name in parameters:
+        for name in names(parameters, "parameters"):
             try:
                 found.append(self.model.symbol_of(name))
             except InputError as error:
