@@ -177,6 +177,14 @@ def test_without_pyarrow_parts_are_csv(written, folder, monkeypatch):
     asked = GRID.replace("chunk = 4", 'format = "parquet"')
     with pytest.raises(InputError, match=r"railride\[formats\]"):
         in_this_process(written(asked), folder)
+    new = folder.parent / "new" / "results"
+    with pytest.raises(InputError, match=r"railride\[formats\]"):
+        in_this_process(written(asked), new)
+    assert not new.parent.exists()
+    new.mkdir(parents=True)  # what was there stays
+    with pytest.raises(InputError, match=r"railride\[formats\]"):
+        in_this_process(written(asked), new)
+    assert new.exists()
 
 
 def test_a_sweep_goes_on_as_it_was_begun(written, folder, alone):
@@ -761,6 +769,52 @@ def test_designs_that_cannot_be_have_a_reason(written, folder):
     assert set(found.best[CASES[0]]["design"]) <= set(table.loc[~bare, "design"])
 
 
+def test_the_best_have_values(written, folder, run):
+    text = GRID.replace('["50 kN s/m", "60 kN s/m", "70 kN s/m", "80 kN s/m"]',
+                        '["70 kN s/m", "1e20 N s/m"]')  # fmt: skip
+    text = text.replace("points = 5", "points = 2").replace("chunk = 4", 'format = "csv"')
+    path = written(text)
+    code, out, _ = run("sweep", path, "--output", folder)
+    assert code == 0
+    assert "\n1 CSV part of" in out
+    assert "nan" not in out
+    found = read_sweep(folder)
+    assert found.problems == 2
+    for case in CASES:
+        assert found.best[case]["design"].tolist() in ([1, 3], [3, 1])
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"study": 3}, "3"),
+        ({"study": None}, "None"),
+        ({"folder": None}, "None"),
+        ({"workers": "x"}, "workers: found 'x'; expected a whole number, at least 1"),
+        ({"workers": 1.5}, "workers: found 1.5"),
+        ({"workers": True}, "workers: found True"),
+        ({"workers": 0}, "workers: found 0"),
+        ({"scheduler": 3}, "--scheduler 3: found no answer"),
+    ],
+)
+def test_what_is_no_sweep(written, folder, asked, said):
+    given = {"study": written(), "folder": folder} | asked
+    with pytest.raises(InputError, match=re.escape(said)):
+        sweep(**given)
+    assert not folder.exists()
+
+
+def test_columns_that_are_none(written, folder):
+    found = in_this_process(written(), folder)
+    with pytest.raises(InputError, match="columns: found 'nope'; expected some of 'design', "):
+        found.table(["nope"])
+    with pytest.raises(InputError, match="columns: found 3"):
+        found.table(3)
+    assert list(found.table([CASES[0]])) == [CASES[0]]
+    with pytest.raises(InputError, match="folder: found 3"):
+        read_sweep(3)
+
+
 def test_every_result_has_its_columns_whichever_design_comes_first(written, folder, tmp_path):
     asked = '[ride]\nresults = ["a_wrms", "a_rms", "wz", "travel", "modes", "static"]'
     text = GRID.replace("[ride]", asked)
@@ -803,7 +857,7 @@ def test_the_command_tells_where_and_how_many_and_the_best(run, written, folder,
     assert len(out.splitlines()) == 11
     code, out, _ = run(*arguments)
     assert "20 of 20 designs done, 0 now" in out
-    assert "5 parquet parts" in out
+    assert "5 Parquet parts" in out
 
 
 @pytest.mark.parametrize(

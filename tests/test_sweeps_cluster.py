@@ -11,6 +11,7 @@ import sys
 import time
 from concurrent.futures import Future
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -63,8 +64,8 @@ def dask(tmp_path):
             )
         return running[-1]
 
-    def scheduler():
-        start("scheduler", "--host", "127.0.0.1", "--port", "0")
+    def scheduler(**more):
+        start("scheduler", "--host", "127.0.0.1", "--port", "0", **more)
         while not file.exists() or not file.read_text().strip().endswith("}"):
             assert running[0].poll() is None, (tmp_path / "scheduler0.log").read_text()
             time.sleep(0.05)
@@ -119,20 +120,69 @@ def test_what_kills_workers_of_a_cluster_is_named():
         list(flown.results([7]))
 
 
-@pytest.mark.parametrize("what", ["none", "another"])
-def test_a_cluster_without_this_version_of_the_program(dask, study, tmp_path, what, monkeypatch):
+@pytest.fixture
+def without(tmp_path):
+    """The environment of a process that has no railride, though one is installed behind."""
     source = tmp_path / "source"
     source.mkdir()
+    missing = "raise ModuleNotFoundError(\"No module named 'railride'\")"
+    (source / "railride.py").write_text(missing, encoding="utf-8")  # found before any other
+    return {"PYTHONPATH": os.pathsep.join([str(source), str(ROOT / "src")])}
+
+
+def test_a_cluster_with_another_version_of_the_program(dask, study, tmp_path, monkeypatch):
     address = dask.scheduler()
-    if what == "another":
-        monkeypatch.setattr(cluster, "__version__", "9.9")
-        dask.worker()
-        expected = "found railride 0.1.0 on tcp"
-    else:
-        dask.worker(PYTHONPATH=str(source))
-        expected = "found a cluster that cannot run railride"
-    with pytest.raises(InputError, match=expected):
+    monkeypatch.setattr(cluster, "__version__", "9.9")
+    dask.worker()
+    with pytest.raises(InputError, match=r"found railride 0\.1\.0 on tcp"):
         sweep(study, tmp_path / "out", scheduler=address)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("where", ["scheduler", "worker", "one of two workers"])
+def test_a_cluster_without_the_program(dask, study, tmp_path, where, without):
+    address = dask.scheduler(**without if where == "scheduler" else {})
+    dask.worker(**without if where != "scheduler" else {})
+    if where == "one of two workers":
+        dask.worker()
+        with Client(address, set_as_default=False) as client:
+            client.wait_for_workers(2)
+    with pytest.raises(InputError, match="cannot run railride") as caught:
+        sweep(study, tmp_path / "out", scheduler=address)
+    assert where == "scheduler" or "No module named 'railride" in str(caught.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_sweep_does_not_wait_for_ever_for_workers(dask, study, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "ALONE", 0.5)
+    monkeypatch.setattr(flight, "LOOK", 0.1)
+    address = dask.scheduler()
+    lost = dask.worker()
+
+    def end(done, total):
+        if done == total // 2:
+            lost.kill()
+
+    with pytest.raises(InputError) as caught:
+        sweep(study, tmp_path / "out", scheduler=address, progress=end)
+    said, kept = str(caught.value).splitlines()
+    assert "found no worker for 0.5 s" in said
+    assert "parts are done and kept" in kept
+    dask.worker()
+    assert sweep(study, tmp_path / "out", scheduler=address).done == 24
+
+
+def test_a_worker_that_comes_back_is_waited_for(monkeypatch):
+    """None at 0 and 50 s, one at 100 s, none at 150 and 200 s: never 60 s without. Then, yes."""
+    numbers = iter([{}, {}, {"tcp": 1}, {}, {}, {}])
+    times = iter([0.0, 50.0, 150.0, 200.0, 210.0])
+    client = SimpleNamespace(nthreads=lambda: next(numbers))
+    monkeypatch.setattr(cluster, "time", SimpleNamespace(monotonic=lambda: next(times)))
+    watch = cluster._Watch(client, "--scheduler")
+    for _ in range(5):
+        watch.check()
+    with pytest.raises(InputError, match="found no worker for 60 s"):
+        watch.check()
 
 
 def test_a_scheduler_that_ends_keeps_what_is_done(dask, study, tmp_path):

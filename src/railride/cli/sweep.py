@@ -121,12 +121,16 @@ def _table(found: SweepResult) -> str:
     """What was done, and the best designs of each case."""
     from railride.sweeps.store import size
 
+    kind = {"csv": "CSV", "parquet": "Parquet"}[found.form]
+    kind += " part" if found.count == 1 else " parts"
     lines = [
         f"{found.study}: {found.done:,} of {found.designs:,} designs done, {found.new:,} now",
-        f"{found.count:,} {found.form} parts of {size(found.bytes)} in {found.folder}",
+        f"{found.count:,} {kind} of {size(found.bytes)} in {found.folder}",
     ]
     tables = ["\n".join(lines) + "\n"]
     for case, table in found.best.items():
+        if table.empty:
+            continue
         heads = [name.replace(" [", "\n[") for name in found.parameters]
         columns = [("design", "d"), *((head, ".6g") for head in heads), ("a_wrms\n[m/s²]", ".4f")]
         rows = table[["design", *found.parameters, case]].itertuples(index=False)

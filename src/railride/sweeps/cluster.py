@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
@@ -17,11 +18,14 @@ if TYPE_CHECKING:
 
 PATIENCE = 5  # s, for a scheduler that does not answer, and for its first worker
 LONGEST = 60  # s, for a worker to load the program
+ALONE = 60  # s without any worker, after which no other is waited for
 
 
 @contextlib.contextmanager
-def cluster(address: str) -> Iterator[tuple[Executor, int]]:
+def cluster(address: str) -> Iterator[tuple[Executor, int, Callable[[], None]]]:
     """An executor of the cluster of a Dask scheduler, and how many tasks it works on at a time.
+
+    And a check, to be called while nothing comes: InputError when all workers are gone for good.
 
     address : as the scheduler prints it, ``tcp://host:8786``.
 
@@ -44,14 +48,34 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
             raise InputError(f"{where}: found a scheduler without workers; expected at least one "
                              f"(start it: dask worker {address})") from None  # fmt: skip
         _check_program(client, where)
-        yield client.get_executor(pure=False), sum(client.nthreads().values())
+        tasks = sum(client.nthreads().values())
+        yield client.get_executor(pure=False), tasks, _Watch(client, where).check
+
+
+class _Watch:
+    """Waits for a worker to come back, but not for ever."""
+
+    def __init__(self, client: Client, where: str) -> None:
+        self._client, self._where = client, where
+        self._since: float | None = None  # when there was none for the first time
+
+    def check(self) -> None:
+        """Raise :class:`InputError` where there has been no worker for :data:`ALONE`."""
+        if self._client.nthreads():
+            self._since = None
+            return
+        now = time.monotonic()
+        self._since = now if self._since is None else self._since
+        if now - self._since >= ALONE:
+            raise InputError(f"{self._where}: found no worker for {ALONE:g} s (all have ended); "
+                             "expected at least one (start it again)")  # fmt: skip
 
 
 def _check_program(client: Client, where: str) -> None:
     """Refuse a cluster that cannot run this program: its scheduler, or one of its workers."""
-    try:
+    try:  # a worker that is asked says what it misses; one that is sent a task only ends
+        found = client.run(version)
         client.submit(version, pure=False).result(timeout=LONGEST)
-        found = {"scheduler": __version__, **client.run(version)}
     except Exception as error:  # noqa: BLE001 - whatever the other side misses
         reason = " ".join(str(error).split())[:120]
         raise InputError(

@@ -25,6 +25,7 @@ from railride.errors import InputError
 C = TypeVar("C")
 R = TypeVar("R")
 
+LOOK = 1.0  # s in which nothing lands, after which a check is made
 MOST_DEATHS = 3  # of a worker that is alone with a chunk
 
 
@@ -38,6 +39,7 @@ class Flight(Generic[C, R]):
     send : hands a chunk to an executor.
     name : what a chunk is called in messages.
     window : how many chunks may be in flight.
+    check : called while none lands; raises where none will.
     """
 
     def __init__(
@@ -47,9 +49,11 @@ class Flight(Generic[C, R]):
         send: Callable[[Executor, C], Future[R]],
         name: Callable[[C], str],
         window: int,
+        check: Callable[[], None] | None = None,
     ) -> None:
         self.executor = executor
         self._start, self._send, self._name, self._window = start, send, name, window
+        self._check = check
         self._flying: dict[Future[R], C] = {}
         self._suspects: deque[C] = deque()
         self._deaths: dict[C, int] = {}
@@ -59,12 +63,13 @@ class Flight(Generic[C, R]):
 
         Raises
         ------
-        InputError : a chunk that kills its workers; an executor that breaks and has no other.
+        InputError : a chunk that kills its workers; an executor that breaks and has no other, or
+            whose check fails.
         Exception : whatever the evaluation of a chunk raised.
         """
         left = iter(chunks)
         while self._fill(left):
-            landed = wait(self._flying, return_when=FIRST_COMPLETED).done
+            landed = self._landed()
             broken = False
             for future in landed:
                 chunk = self._flying.pop(future)
@@ -89,6 +94,15 @@ class Flight(Generic[C, R]):
         """Give up what is in flight, as far as it has not begun."""
         for future in self._flying:
             future.cancel()
+
+    def _landed(self) -> set[Future[R]]:
+        """Those that have come back, at least one."""
+        while True:
+            patience = None if self._check is None else LOOK
+            landed = wait(self._flying, patience, FIRST_COMPLETED).done
+            if landed or self._check is None:
+                return landed
+            self._check()
 
     def _fill(self, left: Iterator[C]) -> bool:
         """Send chunks until enough are in flight, suspects one at a time; whether any is."""

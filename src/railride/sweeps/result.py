@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from railride.errors import InputError
+from railride.quantities import names
 from railride.stochastic.ride import STATED
 from railride.sweeps.manifest import Manifest, read_manifest
 from railride.sweeps.store import NUMBER, parts_in, read_part
@@ -58,14 +59,33 @@ class SweepResult:
         """The parts one by one, so that not all have to fit into memory.
 
         columns : some of the headings; default all.
+
+        Raises
+        ------
+        InputError : a heading that there is none of; a part that cannot be read.
         """
+        if columns is not None:
+            columns = self._known(columns)
         for path in parts_in(self.folder):
             yield read_part(path, columns)
+
+    def _known(self, columns: Sequence[str]) -> list[str]:
+        """The headings, each of which there is."""
+        known, asked = [NUMBER, *self.parameters, *self.columns], names(columns, "columns")
+        unknown = [name for name in asked if name not in known]
+        if unknown:
+            raise InputError(f"columns: found {', '.join(map(repr, unknown))}; expected some of "
+                             f"{', '.join(map(repr, known))}")  # fmt: skip
+        return asked
 
     def table(self, columns: Sequence[str] | None = None) -> pd.DataFrame:
         """All designs as one table, a row for each in the order of their numbers.
 
         columns : some of the headings; default all.
+
+        Raises
+        ------
+        InputError : as :meth:`parts`.
         """
         import pandas as pd
 
@@ -140,7 +160,8 @@ def _least(
     """The best of those so far and of a part."""
     import pandas as pd
 
-    found = part[[NUMBER, *parameters, heading]].nsmallest(BEST, heading)
+    found = part.loc[part[heading].notna(), [NUMBER, *parameters, heading]]
+    found = found.nsmallest(BEST, heading)
     both = found if so_far is None else pd.concat([so_far, found])
     return both.nsmallest(BEST, heading).reset_index(drop=True)
 
@@ -156,7 +177,10 @@ def read_sweep(folder: str | Path) -> SweepResult:
     ------
     InputError : a folder in which no sweep has written.
     """
-    place = Path(folder)
+    try:
+        place = Path(folder)
+    except TypeError:
+        raise InputError(f"folder: found {folder!r}; expected the path of one") from None
     found = read_manifest(place)
     if found is None:
         raise InputError(f"{str(folder)!r}: found no sweep; expected a folder in which one has "

@@ -12,8 +12,10 @@ from pathlib import Path
 from uuid import uuid4
 
 from railride.errors import InputError
+from railride.quantities import check_whole
 from railride.stochastic import track_spectrum
 from railride.studies import Study
+from railride.sweeps import lock, manifest
 from railride.sweeps.cluster import cluster
 from railride.sweeps.lock import locked
 from railride.sweeps.manifest import Manifest, keys_of, read_manifest, refuse_another
@@ -23,6 +25,9 @@ from railride.sweeps.settings import SweepSettings, read_sweep_study
 from railride.sweeps.store import Store, check_form, parts_in, refuse_foreign, usual_form
 from railride.sweeps.task import Progress, Task
 from railride.sweeps.worker import Recipe, headings
+
+Means = tuple[Executor, Callable[[], Executor] | None, int, Callable[[], None] | None]
+"""An executor, what starts another in its place, how many chunks may be in flight, a check."""
 
 PER_WORKER = 2  # chunks in flight: one at work, one waiting
 
@@ -83,30 +88,42 @@ def sweep(
                          "(railride.sweeps.read_sweep_study)")  # fmt: skip
     if (executor is not None) + (scheduler is not None) > 1:
         raise InputError("sweep: found an executor and a scheduler; expected one of them")
-    if workers is not None and workers < 1:
-        raise InputError(f"workers: found {workers}; expected at least 1")
-    place = _made(Path(folder))
-    with locked(place):
+    if workers is not None:
+        check_whole(workers, "workers", least=1)
+    with _made(folder) as place, locked(place):
         recipe, said = _prepared(study)
-        manifest = _manifest(study, settings, recipe)
-        store, thrown = _opened(place, manifest, settings.form, replace)
+        asked = _manifest(study, settings, recipe)
+        store, thrown = _opened(place, asked, settings.form, replace)
         done, damaged = store.done()
         task = Task(store, settings.plan, recipe, done, progress)
         store.refuse_overflow(len(task.left))
-        with _executors(executor, workers, scheduler, len(task.left)) as (first, start, window):
-            task.run(first, start, window)
+        with _executors(executor, workers, scheduler, len(task.left)) as means:
+            task.run(*means)
         return sweep_result(place, store.of, task.new, [*said, *thrown, *damaged])
 
 
-def _made(folder: Path) -> Path:
-    """The folder, made if it is not there."""
+@contextlib.contextmanager
+def _made(folder: str | Path) -> Iterator[Path]:
+    """The folder, made if it is not there; not left behind where nothing comes of it."""
+    made: list[Path] = []
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as error:
+        place = Path(folder)
+        made += [path for path in (place, *place.parents) if not path.exists()]
+        place.mkdir(parents=True, exist_ok=True)
+    except (OSError, TypeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"{str(folder)!r}: found {reason}; expected a folder that can be made or "
                          "is there (choose another)") from None  # fmt: skip
-    return folder
+    try:
+        yield place
+    except BaseException:
+        if made and not parts_in(place):
+            with contextlib.suppress(OSError):
+                for name in (lock.NAME, manifest.NAME):
+                    (place / name).unlink(missing_ok=True)
+                for path in made:
+                    path.rmdir()
+        raise
 
 
 def _prepared(study: Study) -> tuple[Recipe, list[str]]:
@@ -164,16 +181,16 @@ def _opened(
 @contextlib.contextmanager
 def _executors(
     executor: Executor | None, workers: int | None, scheduler: str | None, left: int
-) -> Iterator[tuple[Executor, Callable[[], Executor] | None, int]]:
-    """An executor, what starts another in its place, and how many chunks may be in flight."""
+) -> Iterator[Means]:
+    """By which means ``left`` chunks are evaluated."""
     count = workers or os.cpu_count() or 1
     if executor is not None:
-        yield executor, None, PER_WORKER * count
+        yield executor, None, PER_WORKER * count, None
     elif scheduler is not None and left:
-        with cluster(scheduler) as (found, tasks):
-            yield found, None, PER_WORKER * tasks
+        with cluster(scheduler) as (found, tasks, check):
+            yield found, None, PER_WORKER * tasks, check
     elif left <= 1:
-        yield InProcess(), None, 1
+        yield InProcess(), None, 1, None
     else:
         start = partial(LocalPool, min(count, left))
-        yield start(), start, PER_WORKER * min(count, left)
+        yield start(), start, PER_WORKER * min(count, left), None

@@ -38,14 +38,22 @@ class Task:
         self._designs: dict[int, dict[str, Array]] = {}  # of the chunks in flight
         self._tell()
 
-    def run(self, executor: Executor, start: Callable[[], Executor] | None, window: int) -> None:
+    def run(
+        self,
+        executor: Executor,
+        start: Callable[[], Executor] | None,
+        window: int,
+        check: Callable[[], None] | None = None,
+    ) -> None:
         """Evaluate what is left; a pool that was started here is ended.
+
+        Arguments as for :class:`railride.sweeps.flight.Flight`.
 
         Raises
         ------
         InputError, KeyboardInterrupt : what stopped it, and how much is done.
         """
-        flight = Flight(executor, start, self._send, self._name, window)
+        flight = Flight(executor, start, self._send, self._name, window, check)
         finished = False
         try:
             for chunk, columns in flight.results(self.left):
