@@ -408,6 +408,7 @@ def test_ends_without_a_traceback(run, monkeypatch, raised, code):
 def test_a_key_stops_a_process_cleanly(tmp_path):
     code = (
         "import os, signal, threading\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # ignored in the background
         "from railride.cli import main\n"
         "import railride.vehicle, railride.modal\n"
         "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"

@@ -551,8 +551,9 @@ def process(*arguments):
 
 
 HELD = """
-import sys, time
+import signal, sys, time
 from pathlib import Path
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's background ignores
 from railride.cli import main
 from railride.sweeps.store import Store
 
