@@ -185,7 +185,8 @@ def sweep(rounds: int = 3) -> dict[str, Any]:
 def swept(folder: Path, number: int, workers: int) -> dict[str, Any]:
     """Sweep so many samples into a folder, from study file to parts on disk.
 
-    seconds : from the first part to the last, in which the processes do not start any more.
+    seconds : that all of it would take at the rate between the first part of the last process
+    and the end, in which no process starts any more.
     """
     import railride as rr
 
@@ -201,11 +202,12 @@ def swept(folder: Path, number: int, workers: int) -> dict[str, Any]:
         progress=lambda ready, _: done.append((time.perf_counter(), ready)),
     )
     whole = time.perf_counter() - begun
-    settled = [at for at, ready in done if ready]
+    settled = [(at, ready) for at, ready in done if ready][workers - 1 :]
+    (first, had), (last, has) = settled[0], settled[-1]
     size = sum(path.stat().st_size for path in (folder / "parts").rglob("*") if path.is_file())
     return {
         "whole": whole,
-        "seconds": settled[-1] - settled[0],
+        "seconds": (last - first) / (has - had) * number,
         "designs": found.done,
         "bytes": size,
     }
