@@ -24,7 +24,7 @@ from railride.car_body import CarBody
 from railride.errors import Faults
 from railride.files import shipped_names, shipped_or_file, write_text
 from railride.record_tables import note_all_missing, note_missing, read_values, written
-from railride.toml_tables import Table, read_toml, toml_text
+from railride.toml_tables import Table, file_table, toml_text
 from railride.vehicle_data import (
     Bogie,
     Equipment,
@@ -57,7 +57,7 @@ __all__ = [
     "write_vehicle",
 ]
 
-_SCHEMA = 1  # of the files, should a key ever change its meaning
+_SCHEMA = 1
 
 
 def shipped_vehicles() -> tuple[str, ...]:
@@ -86,13 +86,8 @@ def load_vehicle(name_or_path: str | Path) -> Vehicle:
 
 def _read_vehicle(path: Path) -> Vehicle:
     """Vehicle of a parameter file: every fault in it is noted before any is raised."""
-    faults = Faults(str(path))
-    content = read_toml(path, faults)
-    faults.raise_if_any()
-    top = Table(content, "", faults)
-    schema = top.whole("schema")
-    if schema not in (None, _SCHEMA):
-        faults.add("schema", str(schema), f"{_SCHEMA}, the form that this version reads")
+    top = file_table(path, _SCHEMA)
+    faults = top.faults
     name, source, remarks = top.text("name"), top.text("source"), top.texts("remarks")
     check_texts(path.stem if name is None else name, source or "", remarks, faults)
     body = read_body(top, path.parent, faults)

@@ -48,6 +48,24 @@ def read_toml(path: Path, faults: Faults) -> dict[str, Any]:
     return {}
 
 
+def file_table(path: Path, schema: int) -> Table:
+    """The whole of the TOML file at ``path``, with the faults found in it from now on.
+
+    path: as for :func:`read_toml`. schema: of the files that this version reads, should a key ever
+    change its meaning; another one that the file names is noted.
+
+    Raises InputError where there is nothing to be read.
+    """
+    faults = Faults(str(path))
+    content = read_toml(path, faults)
+    faults.raise_if_any()
+    top = Table(content, "", faults)
+    found = top.whole("schema")
+    if found not in (None, schema):
+        faults.add("schema", str(found), f"{schema}, the form that this version reads")
+    return top
+
+
 def _read_text(path: Path, faults: Faults) -> str | None:
     """Text of the file, or None with a fault noted."""
     try:

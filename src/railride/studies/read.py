@@ -12,18 +12,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from railride.errors import Faults, InputError
+from railride.errors import InputError
 from railride.files import shipped_names, shipped_or_file, there
 from railride.parameters import Vehicle, load_vehicle, shipped_vehicles
 from railride.studies.body import derived, read_body_options
 from railride.studies.cases import RideCases, read_ride
 from railride.studies.parameters import Names, StudyParameter, read_parameters
 from railride.studies.study import Study
-from railride.toml_tables import Table, read_toml
+from railride.toml_tables import Table, file_table
 from railride.vehicle import VehicleModel
 
 SECTIONS = ("sweep", "optimise", "limits", "uncertainty")
-_SCHEMA = 1  # of the files, should a key ever change its meaning
+_SCHEMA = 1
 
 
 @dataclass(frozen=True)
@@ -77,13 +77,8 @@ def read_study(
     ['secondary_stiffness [N/m]', 'secondary_damping [N s/m]']
     """
     path = shipped_or_file(name_or_path, "study")
-    faults = Faults(str(path))
-    content = read_toml(path, faults)
-    faults.raise_if_any()
-    top = Table(content, "", faults)
-    schema = top.whole("schema")
-    if schema not in (None, _SCHEMA):
-        top.fault("schema", str(schema), f"{_SCHEMA}, the form that this version reads")
+    top = file_table(path, _SCHEMA)
+    faults = top.faults
     name = top.text("name") or path.stem
     vehicle = _read_vehicle(top, path.parent)
     body = read_body_options(top.table("body") or Table({}, "body", faults))
