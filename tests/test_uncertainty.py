@@ -57,6 +57,10 @@ def test_indices_of_ishigamis_function(method):
     first, total, mean, variance = ishigami_closed()
     found = through(ishigami, ISHIGAMI, samples=4096, method=method, seed=2)
     own = found.indices[0]
+    table = found.indices_table()
+    assert table[["first", "total_high"]].to_numpy().tolist() == [
+        [first.value, total.high] for first, total in zip(own.first, own.total, strict=True)
+    ]
     for estimates, exact in ((own.first, first), (own.total, total)):
         for estimate, value in zip(estimates, exact, strict=True):
             assert estimate.low <= value <= estimate.high

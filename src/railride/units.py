@@ -155,6 +155,15 @@ def to_si(value: Number, unit: str) -> Number:
     return value * _scale(unit)[0]
 
 
+def headed(name: str, unit: str) -> str:
+    """The heading of a column: the unit in brackets, where there is one.
+
+    >>> headed("a_wrms", "m/s^2"), headed("damping ratio", "")
+    ('a_wrms [m/s^2]', 'damping ratio')
+    """
+    return f"{name} [{unit}]" if unit else name
+
+
 def same_dimension(unit: str, other: str) -> bool:
     """Whether a value in ``unit`` can stand where ``other`` is asked for.
 

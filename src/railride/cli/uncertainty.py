@@ -140,6 +140,8 @@ def _table(found: Uncertainty) -> str:
 
 def _scatter(one: Summary) -> str:
     """Mean, percentiles and probabilities of classes of one quantity."""
+    from railride.units import headed
+
     rows = [("nominal design", f"{one.nominal:#.4g}", "", ""), _row("mean", one.mean, "#.4g"),
             _row("standard deviation", one.deviation, "#.3g")]  # fmt: skip
     rows += [_row(f"{p:g} % of designs are below", at, "#.4g")
@@ -147,7 +149,7 @@ def _scatter(one: Summary) -> str:
     for scale, shares in one.classes.items():
         rows += [_row(f"probability of {label} ({scale}) [%]", share, ".2f", 100)
                  for label, share in shares.items() if share.value > 0]  # fmt: skip
-    columns = [(f"{one.name} [{one.unit}]" if one.unit else one.name, ""), ("value", ">"),
+    columns = [(headed(one.name, one.unit), ""), ("value", ">"),
                ("from", ">"), ("to, at 95 %", ">")]  # fmt: skip
     return output.table_text("Scatter", columns, rows)
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from railride.errors import InputError
 from railride.numeric import Array
+from railride.units import headed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -173,8 +174,3 @@ class DesignValues:
 
 def _units(unit: str) -> dict[str, str]:
     return {"units": unit or "1"}
-
-
-def headed(name: str, unit: str) -> str:
-    """A column's heading: the unit in brackets, where there is one."""
-    return f"{name} [{unit}]" if unit else name

@@ -23,6 +23,7 @@ from railride.optimisation.limits import KINDS, Limit
 from railride.optimisation.problem import Design, Goal, Problem
 from railride.optimisation.solve import Progress, solve
 from railride.optimisation.variables import Variable
+from railride.units import headed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -54,10 +55,9 @@ class ParetoFront:
         """One row per design; the units in the column names."""
         import pandas as pd
 
-        unit = KINDS[self.against].unit
-        named = {f"{v.name} [{v.unit}]".removesuffix(" []"): self.parameters[:, k]
+        named = {headed(v.name, v.unit): self.parameters[:, k]
                  for k, v in enumerate(self.variables)}  # fmt: skip
-        travel = f"{self.against} [{unit}]".removesuffix(" []")
+        travel = headed(self.against, KINDS[self.against].unit)
         return pd.DataFrame({travel: self.travel, "a_wrms [m/s^2]": self.a_wrms, **named,
                              "KKT residual": self.residuals})  # fmt: skip
 

@@ -9,6 +9,7 @@ from railride.distributions import Distribution, note_impossible, read_distribut
 from railride.errors import InputError
 from railride.studies.ranges import Listed, Range, read_listed, read_range
 from railride.toml_tables import Table
+from railride.units import headed
 from railride.vehicle import VehicleModel
 
 Spec = Range | Listed | Distribution
@@ -33,7 +34,7 @@ class StudyParameter:
     @property
     def heading(self) -> str:
         """Heading of its column in a table: "secondary_stiffness [N/m]"."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
+        return headed(self.name, self.unit)
 
 
 class Names:

@@ -12,6 +12,7 @@ from railride.errors import Fault, InputError
 from railride.numeric import Array
 from railride.uncertainties.estimates import Estimate, Summary
 from railride.uncertainties.indices import Indices
+from railride.units import headed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -108,11 +109,6 @@ class Uncertainty:
         ]  # fmt: skip
         names = [f"{order}{end}" for order in ("first", "total") for end in ("", "_low", "_high")]
         return pd.DataFrame(rows, columns=["quantity", "parameter", *names])
-
-
-def headed(name: str, unit: str) -> str:
-    """The heading of a column: ``a_wrms [m/s^2]``."""
-    return f"{name} [{unit}]" if unit else name
 
 
 def spread(name: str, estimate: Estimate) -> dict[str, float]:
