@@ -20,8 +20,8 @@ from railride import (
     weighting,
     write_vehicle,
 )
+from railride.designs.given import given_cases
 from railride.optimisation import KINDS
-from railride.optimisation.cases import cases_of
 from railride.optimisation.limits import limits_of
 from railride.optimisation.measures import Measures
 from railride.optimisation.search import MISSED, energies_of
@@ -36,7 +36,7 @@ SUSPENSION = {"k_2": (4e5, 12e5), "c_2": (2e4, 15e4), "c_1": (1e4, 1e5)}
 
 
 def measures(model, parameters, kinds=(), speeds=PAPER, at=(0.0, 8.0)):
-    cases = cases_of(model, "erri_low", speeds, at)
+    cases = given_cases(model, "erri_low", speeds, at)
     return Measures(model, Derivatives(model, parameters), cases, frozenset(kinds))
 
 
@@ -349,7 +349,7 @@ def test_what_the_global_search_compares_is_what_the_gradient_method_has():
     ranges = {"k_1": (1.2e6, 5e6), "c_2": (1e4, 2e5)}
     limits = {"secondary_travel": 0.012, "primary_travel": 0.004, "wheel_load_variation": 0.045,
               "damping_ratio": {"heave": 0.15}, "primary_static": (0.02, 0.07)}  # fmt: skip
-    problem = task_of(model, ranges, cases_of(model, "erri_low", PAPER), limits=limits).problem()
+    problem = task_of(model, ranges, given_cases(model, "erri_low", PAPER), limits=limits).problem()
     u = np.array([[0.1, 0.5, 0.9, 0.3], [0.2, 0.6, 0.95, 0.7]])
     found = energies_of(problem, u)
     designs = [problem.evaluate(place) for place in u.T]

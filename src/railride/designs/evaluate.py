@@ -86,10 +86,8 @@ def evaluate_designs(
     >>> list(values.table())[:2]
     ['secondary_stiffness [N/m]', 'a_wrms erri_low 145 km/h 0 m [m/s^2]']
     """
-    cases = given_cases(tracks, speeds, at, floor, weight, results)
+    cases = given_cases(model, tracks, speeds, at, floor, weight, results)
     given = given_designs(model, designs)
-    for x in cases.positions:
-        model.floor(x, floor, derivative=0)
     for spectrum in cases.tracks:
         for speed in cases.speeds:
             covered_band(spectrum, speed, BAND_HZ)

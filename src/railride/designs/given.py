@@ -45,12 +45,13 @@ class Cases:
 
 
 def given_cases(
+    model: VehicleModel,
     tracks: Tracks | Sequence[Tracks],
     speeds: ArrayLike,
-    at: ArrayLike,
-    floor: str,
-    weight: str | Weighting,
-    results: str | Sequence[str],
+    at: ArrayLike = (0.0,),
+    floor: str = "smooth",
+    weight: str | Weighting = "Wk",
+    results: str | Sequence[str] = ("a_wrms",),
 ) -> Cases:
     """The cases; arguments and errors as for :func:`railride.designs.evaluate_designs`."""
     wanted = _each_once(names(results, "results"), "results")
@@ -60,6 +61,8 @@ def given_cases(
                          f"{', '.join(RESULTS)}")  # fmt: skip
     V = _each_once(several(speeds, "speeds", "m/s"), "speeds")
     places = _each_once(several(at, "at", "m"), "at")
+    for x in places:
+        model.floor(x, floor, derivative=0)
     if isinstance(tracks, str | Path | Spectrum | Track):
         listed = [tracks]
     else:

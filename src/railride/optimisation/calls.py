@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from railride.designs.given import Tracks
+from railride.designs.given import Tracks, given_cases
 from railride.errors import Faults, InputError
-from railride.optimisation.cases import cases_of
 from railride.optimisation.optimum import Optimum
 from railride.optimisation.pareto import ParetoFront
 from railride.optimisation.solve import Progress
@@ -76,7 +75,7 @@ def optimise(
     >>> found.converged, [state.limit.name for state in found.limits if state.binds]
     (True, ['damping_ratio of heave'])
     """
-    task = task_of(model, parameters, cases_of(model, track, speeds, at, floor, weight),
+    task = task_of(model, parameters, given_cases(model, track, speeds, at, floor, weight),
                    limits=limits or {}, objective=objective, weights=weights, search=search,
                    starts=starts, seed=seed, distance=distance)  # fmt: skip
     return task.run(progress)
@@ -119,7 +118,7 @@ def pareto_front(
     (np.True_, np.True_)
     """
     read = {name: options.pop(name) for name in ("floor", "weight") if name in options}
-    cases = cases_of(model, track, speeds, at, **read)
+    cases = given_cases(model, track, speeds, at, **read)
     asked = Front(against, points)
     faults = Faults("pareto")
     asked.note_faults(model, faults)

@@ -2,31 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from numpy.typing import ArrayLike
-
-from railride.designs.given import Cases, Tracks, given_cases
+from railride.designs.given import Cases
 from railride.spectra import Spectrum
-from railride.vehicle import VehicleModel
-from railride.weightings import Weighting
-
-
-def cases_of(
-    model: VehicleModel, tracks: Tracks | Sequence[Tracks], speeds: ArrayLike,
-    at: ArrayLike = (0.0,), floor: str = "smooth", weight: str | Weighting = "Wk",
-) -> Cases:  # fmt: skip
-    """The cases of a call, their points on the model's body.
-
-    Raises
-    ------
-    InputError : a track that has no spectrum; a speed ≤ 0; a point off the body; another floor or
-        weighting than there are; none of something, or one twice.
-    """
-    cases = given_cases(tracks, speeds, at, floor, weight, ("a_wrms",))
-    for x in cases.positions:
-        model.floor(x, floor, derivative=0)
-    return cases
 
 
 def runs(cases: Cases) -> list[tuple[Spectrum, float]]:

@@ -24,7 +24,7 @@ import numpy as np
 from railride.designs.given import Cases
 from railride.errors import InputError
 from railride.numeric import Array
-from railride.optimisation.cases import cases_named, run_name, runs
+from railride.optimisation.cases import run_name, runs
 from railride.sensitivities import (
     Derivatives,
     Tangent,
@@ -122,9 +122,8 @@ class Measures:
             found.append((squares[:, 0].ravel(), slopes[:, 0].reshape(-1, slopes.shape[-1])))
         J, dJ = (np.concatenate(part) for part in zip(*found, strict=True))
         a = np.sqrt(J)
-        named = tuple(
-            f"{track}, {3.6 * speed:.6g} km/h, {x:g} m" for track, speed, x in cases_named(cases)
-        )
+        named = tuple(f"{run_name(track, speed)}, {x:g} m"
+                      for track, speed in runs(cases) for x in cases.positions)  # fmt: skip
         return Values(a, dJ / (2 * a[:, np.newaxis]), named)
 
     def _travel(self, at: Tangent, level: str) -> dict[str, Values]:

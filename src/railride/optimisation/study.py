@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from railride.designs.given import given_cases
 from railride.errors import InputError
-from railride.optimisation.cases import cases_of
 from railride.optimisation.limits import AT_LEAST, BETWEEN, KINDS, Limit, check_limits
 from railride.optimisation.problem import GOALS
 from railride.optimisation.task import (
@@ -46,7 +46,9 @@ def read_task(name_or_path: str | Path) -> tuple[Study, Task]:
               if isinstance(p.spec, Range)}  # fmt: skip
     model = study.model()
     try:
-        cases = cases_of(model, ride.tracks, ride.speeds, ride.positions, ride.floor, ride.weight)
+        cases = given_cases(
+            model, ride.tracks, ride.speeds, ride.positions, ride.floor, ride.weight
+        )
         task = task_of(model, ranges, cases, distance=limits.distance, **options)
     except InputError as error:
         raise InputError(f"{study.path}: {error}") from None

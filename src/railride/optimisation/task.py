@@ -59,13 +59,13 @@ class Task:
     model: VehicleModel
     variables: tuple[Variable, ...]
     cases: Cases
-    limits: tuple[Limit, ...] = ()
-    objective: str = "mean"
-    weights: Array | None = None
-    search: str = "gradient"
-    starts: int = 1
-    seed: int = 0
-    distance: float = DISTANCE
+    limits: tuple[Limit, ...]
+    objective: str
+    weights: Array | None
+    search: str
+    starts: int
+    seed: int
+    distance: float
     front: Front | None = None
 
     def problem(self) -> Problem:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from railride.designs import evaluate_designs
+from railride.designs.given import Tracks
 from railride.distributions import Distribution, Quantiles, note_impossible
 from railride.errors import Faults
 from railride.numeric import Array
@@ -20,8 +20,6 @@ from railride.scales import (
     Scale,
     scale_remarks,
 )
-from railride.spectra import Spectrum
-from railride.track import Track
 from railride.uncertainties.estimates import Summary
 from railride.uncertainties.propagation import PERCENTILES, SAMPLES, propagate
 from railride.uncertainties.result import Uncertain, Uncertainty
@@ -31,13 +29,11 @@ from railride.weightings import Weighting, weighting
 if TYPE_CHECKING:
     import pandas as pd
 
-Source = str | Path | Spectrum | Track
-
 
 def uncertainty(
     model: VehicleModel,
     distributions: Mapping[str, Quantiles],
-    tracks: Source | Sequence[Source],
+    tracks: Tracks | Sequence[Tracks],
     speeds: float | Sequence[float],
     at: float | Sequence[float] = (0.0,),
     *,
