@@ -33,7 +33,7 @@ studies
 sweeps
 optimisation
 uncertainties
-markup text report halfbody_report plots cli derive __main__
+markup text report halfbody_report exports plots cli derive __main__
 """.split()
 
 

@@ -55,6 +55,7 @@ _WHERE = {
     "sensitivities": ("Derivatives", "Sensitivities", "mean_squares_with_gradient",
                       "roots_with_gradient", "sensitivity",
                       "static_deflections_with_gradient"),
+    "exports.write": ("export_model",),
     "plots": ("plot_bending_convergence", "plot_comparison", "plot_convergence",
               "animate_mode", "plot_acceleration", "plot_bode", "plot_body_coordinates",
               "plot_coordinates", "plot_half_body", "plot_comfort",

@@ -11,6 +11,7 @@ from railride.cli.bode import bode
 from railride.cli.comfort import comfort
 from railride.cli.compare import compare
 from railride.cli.derive import derive
+from railride.cli.export import export
 from railride.cli.map import comfort_map
 from railride.cli.modes import modes
 from railride.cli.optimise import optimise
@@ -34,6 +35,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "comfort": comfort,
     "compare": compare,
     "derive": derive,
+    "export": export,
     "map": comfort_map,
     "modes": modes,
     "optimise": optimise,

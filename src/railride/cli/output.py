@@ -120,8 +120,13 @@ def _reason(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 
-def write(text: str, path: str | None) -> None:
-    """The result to standard output, or to a file as a whole or not at all."""
+def write(text: str | bytes, path: str | None) -> None:
+    """The result to standard output, or to a file as a whole or not at all; bytes to a file."""
+    if isinstance(text, bytes):
+        from railride.files import write_bytes
+
+        write_bytes(str(path), text)
+        return
     text = text if text.endswith("\n") else text + "\n"
     if path is not None:
         from railride.files import write_text
@@ -147,7 +152,9 @@ def result(form: str, document: Mapping[str, Any], rows: Sequence[Mapping[str, A
     return csv_text(rows) if form == "csv" else table()
 
 
-def deliver(text: str, path: str | None, remarks: Iterable[str], *drawn: str | None) -> None:
+def deliver(
+    text: str | bytes, path: str | None, remarks: Iterable[str], *drawn: str | None
+) -> None:
     """Write the result; then remarks and the pictures' files to standard error, a line for each."""
     write(text, path)
     for line in (*(f"remark: {said}" for said in remarks),

@@ -36,12 +36,8 @@ AXES = (
 
 def coordinates(subject: Subject) -> list[Block]:
     """The coordinates and what they mean, inputs and forces."""
-    system, model = subject.system, subject.model
-    last = model.body.segments
-    rows = [
-        (f"${math(q)}$", _meaning(q.name, last), "rad" if "theta" in q.name else "m")
-        for q in system.coordinates
-    ]
+    system, segments = subject.system, subject.model.body.segments
+    rows = [(f"${math(q)}$", *meaning_and_unit(q, segments)) for q in system.coordinates]
     return [
         Heading("Coordinates" if subject.alone else "Coordinates, inputs and forces"),
         Paragraph(AXES + _counted(subject)),
@@ -51,12 +47,19 @@ def coordinates(subject: Subject) -> list[Block]:
     ]
 
 
-def _meaning(name: str, last: int | None) -> str:
+def meaning_and_unit(q: sp.Symbol, segments: int | None) -> tuple[str, str]:
+    """What a coordinate of a vehicle means, and its unit; segments : of the car body, if it has.
+
+    >>> meaning_and_unit(sp.Symbol("z_0"), segments=4)
+    ('height of node 0 of the car body, its front end', 'm')
+    """
+    name = str(q.name)
     head = name.rstrip("0123456789")
     number = name[len(head) :]
     text = MEANING.get(name) or MEANING.get(head, "coordinate of the car body").format(number)
-    ends = {"z_0": ", its front end", f"z_{last}": ", its rear end"}
-    return text + (ends.get(name, ", a hinge") if head == "z_" else "")
+    ends = {"z_0": ", its front end", f"z_{segments}": ", its rear end"}
+    text += ends.get(name, ", a hinge") if head == "z_" else ""
+    return text, "rad" if "theta" in name else "m"
 
 
 def _counted(subject: Subject) -> str:
