@@ -186,7 +186,7 @@ def test_no_point_is_infinite():
 
     for seed in range(20):
         sample([Edge()], 0, 4096, "sobol", seed)
-    sample([Edge()], 2**32 - 5, 2**32, "sobol")
+    sample([Edge()], 2**28 - 5, 2**28, "sobol")  # near 2³² it takes seconds to get there
 
 
 def test_distributions_of_scipy_can_be_sampled():
