@@ -141,7 +141,7 @@ class Content:
             )
             for s in (*own, *rest, *defined)
             if s in wanted
-            for meaning, unit in [known.get(s.name, ("", ""))]
+            for meaning, unit in [known.get(s.name, body.meaning(s))]
         )  # fmt: skip
 
     @cached_property

@@ -32,6 +32,7 @@ TARGETS = {
     target.name: target
     for target in (
         Target("matlab", "MATLAB file of the matrices, the state space and the names", text=False),
-        Target("npz", "NumPy archive of the same", text=False),
+        Target("python", "Python module of the matrices as functions of the parameters"),
+        Target("npz", "NumPy archive of what matlab holds", text=False),
     )
 }

@@ -1,0 +1,68 @@
+"""What the exports as source code share: expressions with the target's names, and lines of text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+
+import sympy as sp
+
+from railride import __version__
+from railride.exports.content import Content, ParameterValue
+
+WIDTH = 100
+Places = list[tuple[int, int]]
+
+FOLLOWING = "Calculated by railride from the others; here they stay unless they are changed."
+
+
+def title(content: Content) -> str:
+    """The vehicle, what its body is and what wrote the file, in letters that end no comment."""
+    name = re.sub(r"[^\w .,()+-]", "_", content.name)
+    return f"{name}: {content.model.body.phrase}, linear; exported by railride {__version__}."
+
+
+def parameters(content: Content) -> tuple[list[ParameterValue], ...]:
+    """Those that are independent, those that follow by an algorithm, those that others define."""
+    free = [p for p in content.parameters if p.definition is None and not p.follows]
+    following = [p for p in content.parameters if p.follows]
+    defined = [p for p in content.parameters if p.definition is not None]
+    return free, following, defined
+
+
+def renamed(expression: sp.Expr, name: Callable[[str], str]) -> sp.Expr:
+    """The expression with its symbols called as ``name`` says."""
+    return expression.xreplace({s: sp.Symbol(name(s.name)) for s in expression.free_symbols})
+
+
+def entries(
+    matrices: Mapping[str, sp.MatrixBase], name: Callable[[str], str]
+) -> dict[str, dict[sp.Expr, Places]]:
+    """Of each matrix the entries that are not zero, each once with all its places.
+
+    >>> m = sp.Symbol("m")
+    >>> entries({"M": sp.Matrix([[m, 0], [0, m]])}, lambda name: f"p->{name}")
+    {'M': {p->m: [(0, 0), (1, 1)]}}
+    """
+    found: dict[str, dict[sp.Expr, Places]] = {}
+    for matrix, A in matrices.items():
+        own: dict[sp.Expr, Places] = found.setdefault(matrix, {})
+        for place, entry in sorted(A.todok().items()):
+            own.setdefault(renamed(entry, name), []).append(place)
+    return found
+
+
+def assignments(targets: Iterable[str], value: str, end: str = "") -> list[str]:
+    """``a = b = value`` in indented lines that fit; all but the first take the first's value.
+
+    >>> assignments(["M[0, 0]", "M[1, 1]"], "m/2")
+    ['    M[0, 0] = M[1, 1] = m/2']
+    """
+    lines, line, first = [], "    ", ""
+    for target in targets:
+        if first and len(f"{line}{target} = {value}{end}") > WIDTH:
+            lines.append(f"{line}{value}{end}")
+            line, value = "    ", first
+        first = first or target
+        line += f"{target} = "
+    return [*lines, f"{line}{value}{end}"]
