@@ -75,17 +75,14 @@ def _records(content: Content) -> list[str]:
         "# Those that the others define, in matrices(), unless they are given.",
     ]
     axes: dict[str, Sequence[Quantity]] = {
-        "DEFINED": defined,
-        "COORDINATES": content.coordinates,
-        "ELEVATIONS": content.elevations,
-        "RATES": content.rates,
-        "FORCES": content.forces,
-        "OUTPUTS": [Quantity(output.name, output.unit, "") for output in content.outputs],
-        "STATES": [Quantity(name, unit, "") for name, unit in states],
+        "defined": defined,
+        **source.axes(content),
+        "states": [Quantity(name, unit, "") for name, unit in states],
     }
     for title, quantities in axes.items():
         own = [_line(q.name, q.unit, q.meaning) for q in quantities]
-        lines += [f"{title} = {{", *own, "}"] if own else [f"{title} = {{}}"]
+        head = f"{title.upper()} = {{"
+        lines += [head, *own, "}"] if own else [f"{head}}}"]
     return [*lines, "INPUTS = {**ELEVATIONS, **RATES, **FORCES}", ""]
 
 

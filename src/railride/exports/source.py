@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import sympy as sp
 
 from railride import __version__
-from railride.exports.content import Content, ParameterValue
+from railride.exports.content import Content, ParameterValue, Quantity
 
 WIDTH = 100
 Places = list[tuple[int, int]]
@@ -22,12 +22,25 @@ def title(content: Content) -> str:
     return f"{name}: {content.model.body.phrase}, linear; exported by railride {__version__}."
 
 
-def parameters(content: Content) -> tuple[list[ParameterValue], ...]:
+def parameters(
+    content: Content,
+) -> tuple[list[ParameterValue], list[ParameterValue], list[ParameterValue]]:
     """Those that are independent, those that follow by an algorithm, those that others define."""
     free = [p for p in content.parameters if p.definition is None and not p.follows]
     following = [p for p in content.parameters if p.follows]
     defined = [p for p in content.parameters if p.definition is not None]
     return free, following, defined
+
+
+def axes(content: Content) -> dict[str, Sequence[Quantity]]:
+    """What stands along the axes of the matrices, in order."""
+    return {
+        "coordinates": content.coordinates,
+        "elevations": content.elevations,
+        "rates": content.rates,
+        "forces": content.forces,
+        "outputs": [Quantity(output.name, output.unit, "") for output in content.outputs],
+    }
 
 
 def renamed(expression: sp.Expr, name: Callable[[str], str]) -> sp.Expr:

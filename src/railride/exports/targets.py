@@ -33,6 +33,7 @@ TARGETS = {
     for target in (
         Target("matlab", "MATLAB file of the matrices, the state space and the names", text=False),
         Target("python", "Python module of the matrices as functions of the parameters"),
+        Target("c", "C source of the same"),
         Target("npz", "NumPy archive of what matlab holds", text=False),
     )
 }

@@ -38,7 +38,7 @@ def export_model(
 
     Parameters
     ----------
-    target : "matlab", "npz" or "python".
+    target : one of ``railride.exports.targets.TARGETS``.
     file : to be written or replaced.
     outputs : one or several, or their names; default: the floor's acceleration at the points
         ``at``, and every output of the vehicle that does not feel the elevation's second rate.
