@@ -42,3 +42,34 @@ def test_what_cannot_be_exported(run, tmp_path, monkeypatch, arguments, parts):
     for part in parts:
         assert part in err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_modelica_package_goes_to_the_terminal(run):
+    code, out, err = run("export", "--to", "modelica", "--segments", "2")
+    assert code == 0
+    assert out.startswith("within ;\npackage cati2024 ")
+    assert out.endswith("end cati2024;\n")
+    assert "model Ride" not in out
+    assert "remark: cati2024" in err
+
+
+def test_a_modelica_package_with_the_track_inside(run, tmp_path):
+    file = tmp_path / "ride.mo"
+    code, out, _ = run("export", "--to", "modelica", "--segments", "2", "--track", "erri_low",
+                       "--speed", "200", "--length", "50", "--output", file)  # fmt: skip
+    assert (code, out) == (0, "")
+    assert 'model Ride "cati2024 over erri_low' in file.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("arguments", "parts"), [
+    (["--to", "npz", "--output", "x.npz", "--track", "erri_low"], ["--track", "--to npz"]),
+    (["--to", "modelica", "--seed", "3"], ["--seed", "no --track"]),
+    (["--to", "modelica", "--step", "0.25"], ["--step", "no --track"]),
+    (["--to", "modelica", "--track", "erri_lo"], ["erri_lo", "found", "expected"]),
+    (["--to", "modelica", "--track", "erri_low", "--speed", "0"], ["--speed", "above 0"]),
+])  # fmt: skip
+def test_rides_that_cannot_be_exported(run, arguments, parts):
+    code, out, err = run("export", *arguments)
+    assert (code, out) == (2, "")
+    for part in parts:
+        assert part in err

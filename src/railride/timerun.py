@@ -96,15 +96,24 @@ def time_run(
     w, slope = track.elevation(distance - speed * delays[:, np.newaxis])
     u = np.vstack([w, speed * slope])
     passive = slice(0, len(u))  # the actuators rest
-    m = model.matrices()
-    at_rest = np.linalg.solve(m.K, m.K_w @ np.stack([u[: len(w), 0], u[len(w) :, 0]], axis=-1))
+    at_rest = following(model, w[:, 0], speed * slope[:, 0])
     response = simulate(
         system.A, system.B[:, passive], system.C, system.D[:, passive], u, 1 / rate,
-        x0=first_order(m).state(*at_rest.T),
+        x0=first_order(model.matrices()).state(*at_rest),
     )  # fmt: skip
     return Run(
         speed, time, distance, w[0], response.outputs, slice(-first, time.size), tuple(remarks)
     )
+
+
+def following(model: VehicleModel, w: Array, dw: Array) -> tuple[Array, Array]:
+    r"""Coordinates and rates (n,) of a vehicle that follows the track without inertia or dampers.
+
+    .. math:: K q = K_w w, \qquad K \dot q = K_w \dot w
+    """
+    m = model.matrices()
+    q, dq = np.linalg.solve(m.K, m.K_w @ np.stack([w, dw], axis=-1)).T
+    return q, dq
 
 
 def run_in_time(

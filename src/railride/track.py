@@ -135,6 +135,22 @@ class Track:
             w, slope = np.where(ahead, self.level[0], w), np.where(ahead, 0.0, slope)
         return np.asarray(w), np.asarray(slope)
 
+    def pieces(self) -> FloatArray:
+        """Level (m), slope (m/m) and curvature (1/m) at the samples, shape (n, 3).
+
+        Between two samples the track is the quintic that has all three at both.
+
+        >>> Track(0.0, 0.5, np.arange(8.0) ** 2).pieces()[2].round(9).tolist()
+        [4.0, 8.0, 8.0]
+        """
+        _, rate = self._spline
+        u = np.arange(self.level.size, dtype=float)
+        columns = [self.level, rate(u) / self.step, rate.derivative()(u) / self.step**2]
+        found = np.stack(columns, axis=-1)
+        if self.lead_in:
+            found[0, 1:] = 0.0
+        return found
+
     def with_taper(self, length: float = TAPER) -> Track:
         """Put a taper before the first sample, so that a vehicle can start on it at rest.
 

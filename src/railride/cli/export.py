@@ -7,18 +7,21 @@ from typing import Annotated
 import typer
 
 from railride.cli import options, output
+from railride.cli.grouped import grouped
 from railride.cli.options import Arguments
 from railride.cli.progress import working
-from railride.cli.vehicle import VehicleChoice, takes_vehicle
+from railride.cli.reading import FileReading, chosen_track
+from railride.cli.vehicle import VehicleChoice
 from railride.exports.targets import TARGETS
 
 EXPORT = "The export"
 
 
 @output.exits_cleanly
-@takes_vehicle
+@grouped(reading=FileReading, choice=VehicleChoice)
 def export(
     choice: VehicleChoice,
+    reading: FileReading,
     target: Annotated[
         str | None,
         typer.Option(
@@ -46,12 +49,44 @@ def export(
             "--at and all others that do not feel the elevation's second rate.",
         ),
     ] = None,
+    track: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME|FILE",
+            rich_help_panel=options.TRACK,
+            help="With --to modelica: the ride over this track as well, a spectrum by name or the "
+            "file of one or of a measured track, with the weighting Wk.",
+        ),
+    ] = None,
+    speed: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KMH", rich_help_panel=options.TRACK, help="Of the ride, km/h. Default 145."
+        ),
+    ] = None,
+    length: Annotated[
+        str | None,
+        typer.Option(
+            metavar="M",
+            rich_help_panel=options.TRACK,
+            help="The rated section; the run-in comes before it. Default 1000.",
+        ),
+    ] = None,
+    seed: Annotated[
+        str | None,
+        typer.Option(
+            metavar="INT", rich_help_panel=options.TRACK, help="Of the synthetic track. Default 1."
+        ),
+    ] = None,
+    extrapolate: options.ExtrapolateOption = False,
     floor: options.FloorOption = "smooth",
     to: options.OutputOption = None,
 ) -> None:
     """Write the linear model in another tool's form.
 
-    Example:  railride export --to matlab --segments 8 --output coach.mat
+    Example:  railride export --to modelica --segments 4 --output coach.mo
+
+    With the ride over a track:  railride export --to modelica --track erri_low --output ride.mo
     """
     given = Arguments()
     if target is None:
@@ -65,12 +100,39 @@ def export(
         given.conflict("--at", "--signal")
     given.choice("--floor", floor, options.FLOORS)
     places = [given.number("--at", text, "m") for text in at or ("0",)]
-    given.writes({"--output": to}, {"--vehicle": choice.vehicle})
+    _check_ride(given, target, track, {"--speed": speed, "--length": length, "--seed": seed,
+                                       "--extrapolate": extrapolate or None}, reading)  # fmt: skip
+    kmh = given.positive("--speed", speed or "145", "km/h")
+    rated = given.positive("--length", length or "1000", "m")
+    number = given.whole("--seed", seed or "1", 0, options.LARGEST_SEED)
+    given.writes({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
+    how = {} if track is None else reading.of(given, track)
     with working("exporting"):
         model = choice.model(given)
+        remarks = [*model.vehicle.remarks, *model.remarks]
         from railride.exports.content import content_of
         from railride.exports.write import export_content
 
-        content = content_of(model, signal, places, floor)
-        written = export_content(content, str(target))
-    output.deliver(written, to, [*model.vehicle.remarks, *model.remarks])
+        content, details = content_of(model, signal, places, floor), {}
+        if track is not None:
+            from railride.exports.setup import ride_setup
+
+            source = chosen_track(track, extrapolate, how)
+            setup = ride_setup(content, source, kmh, length=rated, seed=number)
+            details, remarks = {"setup": setup}, [*remarks, *setup.remarks]
+        written = export_content(content, str(target), **details)
+    output.deliver(written, to, remarks)
+
+
+def _check_ride(
+    given: Arguments, target: str | None, track: str | None, ride: dict[str, object],
+    reading: FileReading,
+) -> None:  # fmt: skip
+    """Note options of a ride without one, and a ride in a form that holds none."""
+    if track is not None and target in TARGETS and target != "modelica":
+        given.conflict("--track", f"--to {target}", "only --to modelica holds a track")
+    if track is None:
+        asked = [option for option, value in ride.items() if value is not None]
+        asked += reading.options() + ["--step"] * (reading.step is not None)
+        for option in asked[:1]:
+            given.conflict(option, "no --track", "name the track, such as --track erri_low")

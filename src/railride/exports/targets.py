@@ -31,6 +31,7 @@ class Target:
 TARGETS = {
     target.name: target
     for target in (
+        Target("modelica", "Modelica package of the equations, with --track of the ride"),
         Target("matlab", "MATLAB file of the matrices, the state space and the names", text=False),
         Target("python", "Python module of the matrices as functions of the parameters"),
         Target("c", "C source of the same"),

@@ -8,8 +8,11 @@ from typing import Any
 
 from railride.errors import InputError
 from railride.exports.content import Content, content_of
+from railride.exports.setup import ride_setup
 from railride.exports.targets import TARGETS
 from railride.files import write_bytes
+from railride.spectra import Spectrum
+from railride.track import Track
 from railride.vehicle import Output, VehicleModel
 
 
@@ -33,6 +36,10 @@ def export_model(
     outputs: Output | str | Sequence[Output | str] | None = None,
     at: Sequence[float] = (0.0,),
     floor: str = "smooth",
+    track: str | Path | Spectrum | Track | None = None,
+    speed: float = 145 / 3.6,
+    length: float = 1000.0,
+    seed: int = 1,
 ) -> None:
     """Write the linear model in another tool's form, the whole file or nothing.
 
@@ -44,12 +51,15 @@ def export_model(
         ``at``, and every output of the vehicle that does not feel the elevation's second rate.
     at : points of the floor, m forward of the body's middle.
     floor : "smooth", "polygon" or "spline".
+    track : of "modelica" alone: the ride over this track as well, a spectrum by name or a measured
+        track by its file, or either as it is; see ``railride.exports.setup``.
+    speed, length, seed : of that ride, in m/s and m; of a synthetic track.
 
     Raises
     ------
-    InputError : a target that does not exist, or whose library is not installed; an output that
-        does not exist or that feels the second rate of the elevation; a file that cannot be
-        written.
+    InputError : a target that does not exist, or whose library is not installed; a track for one
+        that holds none; an output that does not exist or that feels the second rate of the
+        elevation; a file that cannot be written.
 
     Examples
     --------
@@ -61,5 +71,12 @@ def export_model(
     ...     numpy.load(file)["M"].shape
     (7, 7)
     """
-    found = export_content(content_of(model, outputs, at, floor), target)
+    content = content_of(model, outputs, at, floor)
+    details = {}
+    if track is not None:
+        if target != "modelica":
+            raise InputError(f"track: found one for {target!r}; expected none (only 'modelica' "
+                             "holds a ride)")  # fmt: skip
+        details["setup"] = ride_setup(content, track, speed, length=length, seed=seed)
+    found = export_content(content, target, **details)
     write_bytes(file, found.encode() if isinstance(found, str) else found)

@@ -1,0 +1,283 @@
+"""A Modelica package: the vehicle's equations as they stand on paper, its parameters with units.
+
+The package, named after the vehicle, needs no library. It holds
+
+- ``RealInput`` and ``RealOutput``, connectors that fit those of the Modelica Standard Library;
+- ``Coach``: the parameters, the coordinates q with their rates dq and accelerations ddq, the inputs
+  w_1 …, dw_1 …, f_1 …, the outputs, and one equation of second order for each coordinate (of first
+  order for a coordinate without mass). Its states start at zero, the static equilibrium;
+- with a track, ``Track``, ``Weighting`` and ``Ride`` (see ``railride.exports.modelica_ride``).
+
+Names are written as ``railride.exports.names`` says.
+
+Source: Modelica Association, Modelica: A Unified Object-Oriented Language for Systems Modeling,
+Language Specification 3.4: 2.3 (keywords), 3.7 (built-in operators), 19 (units).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import sympy as sp
+from sympy.printing.str import StrPrinter
+
+from railride.exports import source
+from railride.exports.content import Content, Quantity
+from railride.exports.names import Names
+
+if TYPE_CHECKING:
+    from railride.exports.setup import Setup
+
+NAMES = Names(
+    frozenset(
+        "algorithm and annotation block break class connect connector constant constrainedby der "
+        "discrete each else elseif elsewhen encapsulated end enumeration equation expandable "
+        "extends external false final flow for function if import impure in initial inner input "
+        "loop model not operator or outer output package parameter partial protected public pure "
+        "record redeclare replaceable return stream then true type when while within "
+        "abs acos asin atan atan2 cardinality ceil change cos cosh cross delay diagonal div edge "
+        "exp fill floor getInstanceName homotopy identity inStream integer linspace log log10 "
+        "matrix max min mod ndims noEvent ones outerProduct pre product promote reinit rem sample "
+        "scalar semiLinear sign sin sinh size skew smooth spatialDistribution sqrt String sum "
+        "symmetric tan tanh terminal time transpose vector zeros "
+        "Boolean Integer Real RealInput RealOutput".split()
+    )
+)
+"""Modelica's keywords and built-in names, and the connectors of the package."""
+
+SHORT = 72  # an equation that stands on one line
+
+
+def written(content: Content, setup: Setup | None = None) -> str:
+    """The package's text; with a ``setup``, the ride over its track as well."""
+    name = NAMES.written(content.name)
+    lines = [
+        "within ;",
+        f"package {name} {quoted(source.title(content))}",
+        *_head(content),
+        *_CONNECTORS,
+    ]
+    lines += _indented(coach(content))
+    if setup is not None:
+        from railride.exports.modelica_ride import ride
+
+        lines += _indented(ride(content, setup))
+    return "\n".join([*lines, f"end {name};", ""])
+
+
+def unit(own: str) -> str:
+    """An SI unit as Modelica writes it.
+
+    >>> unit("N m/rad"), unit("kg m^2"), unit("")
+    ('N.m/rad', 'kg.m2', '1')
+    """
+    return own.replace(" ", ".").replace("^", "") or "1"
+
+
+def number(value: float) -> str:
+    """A number to its last digit."""
+    return repr(float(value))
+
+
+class _Printer(StrPrinter):
+    """Expressions with ``^`` for powers, and numbers to their last digit."""
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return number(expr)
+
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        return number(expr)
+
+
+def expression(u: sp.Expr) -> str:
+    """An expression, its symbols written as names.
+
+    >>> k, L = sp.symbols("k_theta L")
+    >>> expression(16 * k / L**2)
+    '16*k_theta/L^2'
+    """
+    return printed(source.renamed(u, NAMES.written))
+
+
+def printed(u: sp.Expr) -> str:
+    """An expression whose symbols are Modelica's already."""
+    return str(_Printer({"order": "none"}).doprint(u)).replace("**", "^")
+
+
+def _head(content: Content) -> list[str]:
+    """What the package is, as comments."""
+    values = content.model.vehicle.source
+    said = [
+        *([f"Source of the values: {values}"] if values else []),
+        *(f"Remark: {remark}" for remark in (*content.model.vehicle.remarks,
+                                             *content.model.remarks)),
+        ("SI units; x forward from the middle of the car body, z up, pitch positive nose-up; "
+        "numbered from the front. Displacements count from static equilibrium."),
+    ]  # fmt: skip
+    return [f"  // {line}" for text in said for line in _wrapped(text.split(), 94)]
+
+
+_CONNECTORS = """
+  connector RealInput = input Real "Signal that comes in";
+  connector RealOutput = output Real "Signal that goes out";
+""".splitlines()
+
+
+def coach(content: Content) -> list[str]:
+    """The model ``Coach``."""
+    equations = "M*der(der(q)) + C*der(q) + K*q = K_w*w + C_w*der(w) + B_f*f"
+    return [
+        "",
+        f'model Coach "{equations}"',
+        *_indented([
+            *_parameters(content),
+            *_connectors(content),
+            *_coordinates(content),
+        ]),
+        "equation",
+        *_indented([*_kinematics(content), *_motion(content), *_outputs(content)]),
+        "end Coach;",
+    ]  # fmt: skip
+
+
+def declared(kind: str, q: Quantity, modifiers: str = "", value: str = "") -> str:
+    """``kind name(modifiers, unit = "…") = value "meaning";``."""
+    attributes = ", ".join(filter(None, [modifiers, f'unit = "{unit(q.unit)}"']))
+    said = f" {quoted(q.meaning)}" if q.meaning else ""
+    return f"{kind} {NAMES.written(q.name)}({attributes}){value}{said};"
+
+
+def _parameters(content: Content) -> list[str]:
+    free, following, defined = source.parameters(content)
+    note = [f"// {source.FOLLOWING}"] if following else []
+    return [
+        *(declared("parameter Real", p, value=f" = {number(p.value)}") for p in free),
+        *(declared("parameter Real", p, value=f" = {expression(p.definition)}") for p in defined),
+        *note,
+        *(declared("parameter Real", p, value=f" = {number(p.value)}") for p in following),
+    ]
+
+
+def _connectors(content: Content) -> list[str]:
+    inputs = [*content.elevations, *content.rates, *content.forces]
+    return [
+        *(declared("RealInput", u) for u in inputs),
+        *(declared("RealOutput", y) for y in source.axes(content)["outputs"]),
+    ]
+
+
+def _coordinates(content: Content) -> list[str]:
+    lines = []
+    inertial = content.dynamics.inertial
+    for q, own in zip(content.coordinates, inertial, strict=True):
+        rate, second = Quantity(f"d{q.name}", f"{q.unit}/s", ""), Quantity(
+            f"dd{q.name}", f"{q.unit}/s^2", "")  # fmt: skip
+        start = "start = 0, fixed = true"
+        lines.append(declared("Real", q, start))
+        lines.append(declared("Real", rate, start if own else ""))
+        if own:
+            lines.append(declared("Real", second))
+    return lines
+
+
+def _kinematics(content: Content) -> list[str]:
+    lines = []
+    for q, own in zip(content.coordinates, content.dynamics.inertial, strict=True):
+        names = [NAMES.written(f"{d}{q.name}") for d in ("", "d", "dd")]
+        lines.append(f"der({names[0]}) = {names[1]};")
+        if own:
+            lines.append(f"der({names[1]}) = {names[2]};")
+    return lines
+
+
+def _motion(content: Content) -> list[str]:
+    """One equation for each coordinate: inertia, dampers, springs = track, actuators."""
+    A = content.matrices
+    q, w, f = content.coordinates, content.elevations, content.forces
+    lines = []
+    for i, own in enumerate(q):
+        left = [_row(A["M"], i, q, "dd"), _row(A["C"], i, q, "d"), _row(A["K"], i, q)]
+        right = [_row(A["K_w"], i, w), _row(A["C_w"], i, w, "d"), _row(A["B_f"], i, f)]
+        lines += [f"// {own.name}: {own.meaning}", *_equation(left, right)]
+    return lines
+
+
+def _outputs(content: Content) -> list[str]:
+    A = content.rows
+    q, w, f = content.coordinates, content.elevations, content.forces
+    lines = ["// Outputs"]
+    for i, output in enumerate(content.outputs):
+        right = [
+            _row(A["Y_a"], i, q, "dd"), _row(A["Y_v"], i, q, "d"), _row(A["Y_d"], i, q),
+            _row(A["Y_w"], i, w), _row(A["Y_dw"], i, w, "d"), _row(A["Y_f"], i, f),
+        ]  # fmt: skip
+        lines += _equation([[NAMES.written(output.name)]], right)
+    return lines
+
+
+def _row(A: sp.MatrixBase, i: int, of: Sequence[Quantity], dots: str = "") -> list[str]:
+    """The terms of row i of A times the signals ``of``, or their rates."""
+    return [
+        _term(A[i, j], NAMES.written(f"{dots}{s.name}")) for j, s in enumerate(of) if A[i, j] != 0
+    ]
+
+
+def _term(coefficient: sp.Expr, signal: str) -> str:
+    """``coefficient*signal``."""
+    if coefficient in (1, -1):
+        return signal if coefficient == 1 else f"-{signal}"
+    text = expression(coefficient)
+    return f"({text})*{signal}" if coefficient.is_Add else f"{text}*{signal}"
+
+
+def _equation(left: Sequence[list[str]], right: Sequence[list[str]]) -> list[str]:
+    """``left = right;``: on one line where it fits, else each group of terms on its own."""
+    lines: list[str] = []
+    for side, mark in ((left, ""), (right, "= ")):
+        words = [word for terms in side for word in terms] or ["0"]
+        groups = [terms for terms in side if terms] or [["0"]]
+        for terms in groups:
+            signed = [part for term in terms for part in _parts(_signed(term, term is words[0]))]
+            lead = mark if terms is groups[0] else ""
+            lines += _wrapped([lead + signed[0], *signed[1:]], 92, "  " if lines else "")
+    whole = " ".join(line.strip() for line in lines) + ";"
+    return [whole] if len(whole) <= SHORT else [*lines[:-1], f"{lines[-1]};"]
+
+
+def _signed(term: str, first: bool) -> str:
+    """A term with its sign before it, which only a sum's first one may go without."""
+    if first:
+        return term
+    return f"- {term[1:]}" if term.startswith("-") else f"+ {term}"
+
+
+def _parts(term: str) -> list[str]:
+    """A term that no line holds, cut before the signs of its sums."""
+    return [term] if len(term) <= SHORT else re.split(r"(?<=\S\S) (?=[+-] )", term)
+
+
+def _wrapped(words: Iterable[str], width: int, indent: str = "") -> list[str]:
+    """Words in lines of at most ``width`` characters, as far as they can be."""
+    lines: list[str] = []
+    for word in words:
+        if lines and len(lines[-1]) + 1 + len(word) <= width:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(f"{indent if not lines else indent or '  '}{word}")
+    return lines
+
+
+def _indented(lines: Iterable[str]) -> list[str]:
+    return [f"  {line}" if line else "" for line in lines]
+
+
+def quoted(text: str) -> str:
+    r"""A string of Modelica.
+
+    >>> print(quoted('a "long" body'))
+    "a \"long\" body"
+    """
+    escaped = re.sub(r"[\x00-\x1f]", " ", text).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
