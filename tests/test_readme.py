@@ -66,7 +66,7 @@ def test_commands_run(line, run, tmp_path, monkeypatch):
     words = words[1:] if words[0] == "railride" else ["derive", *words[3:]]
     code, out, err = run(*words, *SHORTER.get(words[0], ()))
     assert code == 0, err
-    assert out
+    assert out or Path(words[words.index("--output") + 1]).stat().st_size > 0
 
 
 SHORTER = {"map": ("--segments", "1")}
