@@ -176,6 +176,18 @@ def same_dimension(unit: str, other: str) -> bool:
     return found in (expected, _without_angle(expected))
 
 
+def base_units(unit: str) -> dict[str, int]:
+    """Exponents of kg, m, s and rad, those that are not 0; of 1 Hz those of 1/s.
+
+    >>> base_units("N s/m")
+    {'kg': 1, 's': -1}
+
+    Raises QuantityError for what is no unit that is known.
+    """
+    symbols = {"[mass]": "kg", "[length]": "m", "[time]": "s", "[angle]": "rad"}
+    return {symbols[name]: power for name, power in _scale(unit)[1] if name in symbols}
+
+
 def _split(text: object, unit: str) -> tuple[float, str]:
     """Split ``text`` into a finite number and a normalised unit text, which may be empty."""
     if not isinstance(text, str):

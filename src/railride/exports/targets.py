@@ -35,6 +35,7 @@ TARGETS = {
         Target("matlab", "MATLAB file of the matrices, the state space and the names", text=False),
         Target("python", "Python module of the matrices as functions of the parameters"),
         Target("c", "C source of the same"),
+        Target("fmu", "FMU of FMI 2.0 for co-simulation", text=False),
         Target("npz", "NumPy archive of what matlab holds", text=False),
     )
 }
