@@ -147,7 +147,7 @@ class ModalBody(BodyModel):
     def meaning(self, symbol: sp.Symbol) -> tuple[str, str]:
         """Of frequencies, damping ratios, and shapes where something is attached."""
         if isinstance(symbol, Shape):
-            return symbol.meaning, ""
+            return symbol.meaning, "m" if symbol.power else ""
         for i in self.numbers:
             if symbol == mode_frequency(i):
                 return f"free-free frequency of mode {i}", "Hz"

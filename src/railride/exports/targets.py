@@ -36,6 +36,7 @@ TARGETS = {
         Target("python", "Python module of the matrices as functions of the parameters"),
         Target("c", "C source of the same"),
         Target("fmu", "FMU of FMI 2.0 for co-simulation", text=False),
+        Target("latex", "article of the derivation with the outputs' equations and all names"),
         Target("npz", "NumPy archive of what matlab holds", text=False),
     )
 }

@@ -9,7 +9,17 @@ and on to natural frequencies. Every equation and every figure is derived as the
 at its end the same mathematics stands as text that sympy reads back.
 """
 
-from railride.report.document import LAGRANGE, Subject, for_sympy, render
-from railride.report.vehicle import command, vehicle_document
+from railride.report.document import LAGRANGE, Subject, entries, for_sympy, render, stacked
+from railride.report.vehicle import command, vehicle_blocks, vehicle_document
 
-__all__ = ["LAGRANGE", "Subject", "command", "for_sympy", "render", "vehicle_document"]
+__all__ = [
+    "LAGRANGE",
+    "Subject",
+    "command",
+    "entries",
+    "for_sympy",
+    "render",
+    "stacked",
+    "vehicle_blocks",
+    "vehicle_document",
+]

@@ -105,8 +105,7 @@ def for_sympy(system: Lagrangian, linear: LinearModel, **more: Any) -> list[Bloc
         "V": str(system.potential),
         "D": str(system.dissipation),
     }
-    for name, A in linear.matrices.items():
-        document[name] = {f"{i},{j}": str(e) for (i, j), e in sorted(A.todok().items())}
+    document |= entries(linear.matrices)
     text = json.dumps(document | more, indent=1, ensure_ascii=False)
     return [
         Heading("For a program"),
@@ -114,3 +113,15 @@ def for_sympy(system: Lagrangian, linear: LinearModel, **more: Any) -> list[Bloc
                   "entries by row and column, counted from 0."),
         Code(text, "json"),
     ]  # fmt: skip
+
+
+def entries(matrices: Mapping[str, sp.MatrixBase]) -> dict[str, dict[str, str]]:
+    """Of each matrix what is not zero, "row,column" → sympy's string.
+
+    >>> entries({"K": sp.Matrix([[0, sp.Symbol("k")]])})
+    {'K': {'0,1': 'k'}}
+    """
+    return {
+        name: {f"{i},{j}": str(e) for (i, j), e in sorted(A.todok().items())}
+        for name, A in matrices.items()
+    }

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from shlex import quote
+from typing import Any
 
 from railride.markup import Block, Heading, Paragraph
 from railride.parameters import load_vehicle, shipped_vehicles
@@ -34,27 +36,38 @@ def vehicle_document(
     # cati2024: a rigid car body on 2 bogies
     """
     subject = Subject(model, alone, form, nonlinear, figure, document)
-    more = {}
+    return render(vehicle_blocks(subject, f"Made by `{command(subject)}`."), form)
+
+
+def vehicle_blocks(
+    subject: Subject, made: str, behind: Sequence[Block] = (), **more: Any
+) -> list[Block]:
+    """The same in blocks.
+
+    made : what made it, a sentence. behind : blocks that follow the linear equations. more : to be
+    told to a program as well.
+    """
     blocks = [
-        *_opening(subject),
+        *_opening(subject, made),
         *kinematics.coordinates(subject),
         *kinematics.positions(subject),
         *dynamics.energies(subject),
     ]
-    if nonlinear:
+    if subject.nonlinear:
         parts = resultants(subject.system)
         blocks += dynamics.nonlinear(subject, parts)
-        more = {"resultants": {u.name: str(R) for u, R in parts.of.items()},
-                "derivatives": {f"{u.name}, {q.name}": str(e)
-                                for (u, q), e in parts.moved.items()}}  # fmt: skip
-    blocks += [
+        more |= {"resultants": {u.name: str(R) for u, R in parts.of.items()},
+                 "derivatives": {f"{u.name}, {q.name}": str(e)
+                                 for (u, q), e in parts.moved.items()}}  # fmt: skip
+    return [
+        *blocks,
         *equilibrium.equilibrium(subject),
         *structure.linear(subject),
+        *behind,
         *numbers.parameters(subject),
         *numbers.modes(subject),
         *for_sympy(subject.system, subject.linear, **more),
     ]
-    return render(blocks, form)
 
 
 def command(subject: Subject) -> str:
@@ -77,7 +90,7 @@ def command(subject: Subject) -> str:
     return " ".join(words) + f" --format {subject.form}{kept}"
 
 
-def _opening(subject: Subject) -> list[Block]:
+def _opening(subject: Subject, made: str) -> list[Block]:
     model = subject.model
     bogies = len(model.vehicle.bogies)
     source = f" Source of the values: {model.vehicle.source}" if model.vehicle.source else ""
@@ -85,6 +98,6 @@ def _opening(subject: Subject) -> list[Block]:
     remarks = model.remarks if subject.alone else [*model.vehicle.remarks, *model.remarks]
     return [
         Heading(f"{model.vehicle.name}: {model.body.phrase}{',' * subject.alone} {on}", 1),
-        Paragraph(f"Made by `{command(subject)}`.{source}"),
+        Paragraph(f"{made}{source}"),
         *(Paragraph(f"Remark: {remark}.") for remark in remarks),
     ]
