@@ -110,6 +110,7 @@ def test_the_standard_acceleration_of_free_fall_is_written_once():
         ("1e999 kg", "kg", "not finite", "a mass"),
         ("1e308 t", "kg", "not finite", "a mass"),
         ("5 furlong", "m", "'furlong' is no unit that is known", "a length"),
+        ("8.75 nan", "m", "'nan' is no unit that is known", "a length"),
         ("5 m/", "m", "is no unit", "a length"),
         ("5 (m", "m", "is no unit", "a length"),
         ("5 m)*(s", "m", "is no unit", "a length"),

@@ -261,7 +261,7 @@ def _scale(unit: str) -> tuple[float, tuple[tuple[str, int], ...]]:
     registry = _registry()
     # One at a time, so that the message names the one that is not known.
     for name in re.findall(_NAME, text):
-        if name not in registry:
+        if not _is_unit(name, registry):
             raise QuantityError(
                 f"{name!r} is no unit that is known", "a unit such as kN/m or kg m^2", _near(name)
             )
@@ -285,6 +285,13 @@ def _near(name: str) -> str:
     same = [unit for unit in _COMMON if unit.lower() == name.lower()]
     near = same or difflib.get_close_matches(name, _COMMON, n=2, cutoff=0.5)
     return f"did you mean {' or '.join(near)}?" if near else f"known are {', '.join(_COMMON)}"
+
+
+def _is_unit(name: str, registry: UnitRegistry[Any]) -> bool:
+    try:
+        return name in registry
+    except ValueError:  # Pint reads nan as a number
+        return False
 
 
 @lru_cache(maxsize=1)
