@@ -115,6 +115,8 @@ def test_slips_of_the_unit_are_remarked():
         ([1.0, np.nan, 3.0], [1.0, 1.0, -1.0], {}, "point 2, abscissa(.|\n)*point 3, density"),
         ([1.0, 3.0, 2.0], [1.0, 1.0, 1.0], {}, "point 3, abscissa: found 2 after 3; expected a"),
         ([3.0, 3.0, 2.0], [1.0, 1.0, 1.0], {}, "point 2, abscissa: found 3 after 3"),
+        ([1.0, 2e300], [1.0, 1.0], {}, "point 2, abscissa: found 2e.300 rad/m; expected 1e-09 to"),
+        ([1.0, 2.0], [1e290, 1e-99], {}, "point 1, density: found 1e.290 m.*\n.*point 2, density"),
         ([1.0], [1.0], {}, "at least 2"),
         ([1.0, 2.0], [1.0], {}, "shapes"),
         ([[1.0, 2.0]], [[1.0, 2.0]], {}, "shapes"),

@@ -248,6 +248,9 @@ ONE_FAULT = [
     (with_line(5, "0.75,0.001 é").encode() + b"\xff", "byte .* found 0xff, which is not UTF-8"),
     ('"Ru\n', "row 1: found a quote that is not closed"),
     (with_line(5, "0.75,inv"), "row 5, column 'level_m': found 'inv'; .*--fill 0.25"),
+    (text(w=[0.001] * 5 + [1e300] + [0.001] * 6), "row 7, column 'level_m': found '1e[+]300'"),
+    (text(x=1e-300 * X), "row 2, column 'distance_m': found rows 2.5e-301 m apart"),
+    (text(x=1e6 * X), "row 2, column 'distance_m': found rows 2.5e[+]05 m apart"),
     (text(w=3000 * W), "row .*, column 'level_m': found a level .* m off .*millimetres"),
     (text("distance_m;level_m", w=["0,5"] * 6 + ["1.234,5"] * 6, sep=";"), "'1.234,5'"),
 ]

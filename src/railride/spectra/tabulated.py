@@ -11,7 +11,7 @@ two wavenumbers it is one, whichever the abscissa is: S(Omega) = S(n)/2π.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import log, pi
@@ -28,6 +28,8 @@ ABSCISSAE = ("rad/m", "1/m", "m")
 DENSITIES = ("m^2/(rad/m)", "m^2/(1/m)")
 _STEEPEST_END = 8.0  # exponent beyond the table's ends, at most: no track's spectrum is steeper
 _FEWEST = 2
+# Beyond them a unit is wrong, and a square may be no number.
+_LIMITS = {"abscissa": (1e-9, 1e9, "rad/m"), "density": (1e-60, 1e30, "m^2/(rad/m)")}
 
 Place = Callable[[int, str], str]
 """Where the points stand: from their count (0 first) and "abscissa" or "density"."""
@@ -100,14 +102,15 @@ def tabulated(
         )  # fmt: skip
     _check(points, faults, place)
     faults.raise_if_any()
+    wavenumber, density = _angular(points, kind), scale * points.density
+    _check_limits({"abscissa": wavenumber, "density": density}, points, faults, place)
     if sidedness is None:
         remarks.append(
             "whether the densities are one- or two-sided is not stated; taken to be one-sided "
             "(two-sided ones would be doubled)"
         )
-    wavenumber = _angular(points, kind)
     order = np.argsort(wavenumber)
-    wavenumber, density = wavenumber[order], scale * points.density[order]
+    wavenumber, density = wavenumber[order], density[order]
     found = Spectrum(
         name=name,
         source=source or "a table",
@@ -177,6 +180,19 @@ def _check(points: Points, faults: Faults, place: Place) -> None:
                    "sort the points and keep one of those at the same place")  # fmt: skip
 
 
+def _check_limits(
+    si: Mapping[str, FloatArray], points: Points, faults: Faults, place: Place
+) -> None:
+    """Refuse points whose values in rad/m and m²/(rad/m) no track has."""
+    for column, (low, high, unit) in _LIMITS.items():
+        for j in np.flatnonzero((si[column] < low) | (si[column] > high)).tolist():
+            given = f"{getattr(points, column)[j]:g} {getattr(points, f'{column}_unit')}"
+            faults.add(place(j, column), given, f"{low:g} to {high:g} {unit}, as a track may have",
+                       "is the unit right?")  # fmt: skip
+    faults.raise_if_any()
+
+
+@np.errstate(over="ignore")  # refused by its size
 def _angular(points: Points, kind: str) -> FloatArray:
     """Omega, rad/m."""
     values = to_si(points.abscissa, points.abscissa_unit)

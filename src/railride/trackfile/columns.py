@@ -11,6 +11,7 @@ from railride.errors import Faults, InputError
 from railride.tables import Column, NumberTable
 from railride.trackfile.cells import is_km_and_m
 from railride.trackfile.headings import meaning
+from railride.trackfile.spacing import STEPS
 from railride.units import QuantityError, same_dimension, to_si
 
 EXPECTED_HEADER = "a header line with distance_m and level_m, or another unit, as in level [mm]"
@@ -45,8 +46,9 @@ class Asked:
 
     def __post_init__(self) -> None:
         """Check the values."""
-        if self.step is not None and not (isfinite(self.step) and self.step > 0.0):
-            raise InputError(f"track step: found {self.step} m; expected a finite one above zero")
+        low, high = STEPS
+        if self.step is not None and not low <= self.step <= high:
+            raise InputError(f"track step: found {self.step} m; expected {low:g} to {high:g} m")
         if not (isfinite(self.fill) and self.fill >= 0.0):
             raise InputError(
                 f"track fill: found {self.fill} m; expected the longest dropout to be bridged, 0 "

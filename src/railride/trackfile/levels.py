@@ -18,6 +18,7 @@ from railride.trackfile.cells import is_number
 
 _LEAST_ZEROS = 4  # rows
 _SPIKE, _LEAST_SPIKE = 12.0, 5e-4  # times the usual second difference; m
+_HIGHEST = 1e5  # m: what lies higher is no track, and its square may be no number
 _SHOWN = 3
 
 Runs = NDArray[np.int64]  # first place and the place after the last, shape (runs, 2)
@@ -28,10 +29,14 @@ def levels_of(
 ) -> tuple[FloatArray, list[str]]:
     """Levels of a column, m, and remarks; dropouts of up to ``fill`` m are bridged.
 
-    ``metres``: in one unit of the column; ``step``: from row to row, m. Cells that are no number,
-    and dropouts without a number that are not bridged, are noted in ``bad``.
+    ``metres``: in one unit of the column; ``step``: from row to row, m. Cells that are no number or
+    no level, and dropouts without a number that are not bridged, are noted in ``bad``.
     """
-    level = np.asarray(column.numbers * metres, dtype=np.float64)
+    with np.errstate(over="ignore"):
+        level = np.asarray(column.numbers * metres, dtype=np.float64)
+    for i in np.flatnonzero(np.abs(level) > _HIGHEST).tolist():
+        bad.add(table.row(i), column.heading, column.shown(i), "irregularities of millimetres",
+                "is the unit right?")  # fmt: skip
     blank = np.zeros(table.n, dtype=bool)
     for i in column.bad.tolist():
         if is_missing(column.cells[i]):

@@ -12,6 +12,7 @@ from railride.tables import Column, NumberTable
 from railride.trackfile.locations import Locations
 from railride.trackfile.steps import exact_step
 
+STEPS = 1e-4, 1e3  # m, from row to row: what is finer or coarser is no record of a track
 _OR_STEP = "or give the distance from row to row with --step"
 
 
@@ -48,7 +49,7 @@ def stepped(table: NumberTable, found: Locations | None, column: Column | None,
 def spaced(table: NumberTable, found: Locations, column: Column, bad: RowFaults) -> Spacing:
     """Rows where their distances are.
 
-    Steps that turn back, stand still, leave a gap or crowd are noted in ``bad``.
+    Steps that no track has, turn back, stand still, leave a gap or crowd are noted in ``bad``.
     """
     distance = found.distance
     steps = np.diff(distance)
@@ -58,6 +59,9 @@ def spaced(table: NumberTable, found: Locations, column: Column, bad: RowFaults)
     forward = ahead[whole & (ahead > 0.0)]
     usual = float(np.median(forward)) if forward.size else 0.0
     wrong = whole & ((ahead < 0.5 * usual) | (ahead > 1.5 * usual) | (ahead <= 0.0))
+    if forward.size and not STEPS[0] <= usual <= STEPS[1]:
+        bad.add(table.row(0), column.heading, f"rows {usual:.3g} m apart",
+                f"rows {STEPS[0]:g} to {STEPS[1]:g} m apart", "is the unit right?")  # fmt: skip
     for i in np.flatnonzero(wrong).tolist():
         _report(table, found, column, i, float(ahead[i]), usual, falling, bad)
     spacing = Spacing(distance, usual, remarks=found.remarks)
