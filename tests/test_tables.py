@@ -285,6 +285,11 @@ def test_what_is_not_a_file_is_a_fault(tmp_path):
         read_table(str(tmp_path / "a\0b.csv"))
 
 
+def test_a_very_long_heading_is_cut(read):
+    table = read("x," + "_" * 20_000 + "y\n" + "1,2\n" * 5)
+    assert table.columns[1].heading == "_" * 200 + "…"
+
+
 def test_columns_are_found_by_heading_and_by_name(read):
     table = read("Time (s),acc_z [g],Speed,speed\n1,2,3,4\n1,2,3,4\n")
     assert table.column("acc_z [g]") is table.column("Acc Z") is table.columns[1]

@@ -15,6 +15,7 @@ from railride.errors import Faults
 from railride.tables.separators import cells_or_none, find_separator
 from railride.tables.table import DECIMAL_COMMA, DECIMAL_POINT, is_missing
 
+_LONGEST_HEADING = 200
 _COMMENT = re.compile(r"\s*(?:#|%|//)+\s*")
 # Units of a line of its own that data/units.txt does not hold.
 _OTHER_UNITS = frozenset("g V mV A mA °C bar ‰ - – # counts".split())
@@ -30,8 +31,8 @@ class Dialect:
 
     separator: tab, semicolon, comma, or a blank for runs of blanks and tabs.
     comma: whether the decimal mark is a comma.
-    headings, units: of the columns; ``units`` is empty where no line of units follows the header,
-        and ``headings`` are the columns' numbers where there is no header.
+    headings, units: of the columns, cut at 200 characters; ``units`` is empty where no line of
+        units follows the header, and ``headings`` are the columns' numbers where there is none.
     header_row: line of the header; 0 where there is none.
     first_row: line from which on the rows are numbers.
     """
@@ -147,7 +148,8 @@ class _Layout:
         self, headings: Sequence[str], units: tuple[str, ...], header_row: int, first_row: int
     ) -> Dialect:
         units = (*units, *[""] * len(headings))[: len(headings)] if units else ()
-        return Dialect(self.separator, self.comma, tuple(headings), units, header_row, first_row)
+        headings, units = (tuple(map(_cut, texts)) for texts in (headings, units))
+        return Dialect(self.separator, self.comma, headings, units, header_row, first_row)
 
     def _is_data(self, cells: list[str]) -> bool:
         """Whether a line is a row: half of the columns of numbers have one, or all cells are."""
@@ -225,6 +227,11 @@ class _Layout:
             and all(cell.isdecimal() for cell in seconds)
             and any(len(cell) > 1 and cell[0] == "0" for cell in seconds)
         )
+
+
+def _cut(heading: str) -> str:
+    """A heading, no longer than one may be that is looked into and told in messages."""
+    return heading if len(heading) <= _LONGEST_HEADING else heading[:_LONGEST_HEADING] + "…"
 
 
 def _is(number: re.Pattern[str], cell: str) -> bool:

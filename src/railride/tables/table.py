@@ -17,8 +17,8 @@ from railride.errors import Fault, InputError
 Numbers = NDArray[np.float64] | NDArray[np.int64]
 
 # What a cell must match as a whole to be a number; Python's own 1_000 is none.
-DECIMAL_POINT = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-DECIMAL_COMMA = re.compile(r"[+-]?(?:\d+,?\d*|,\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+DECIMAL_POINT = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+DECIMAL_COMMA = re.compile(r"[+-]?(?:\d+(?:,\d*)?|,\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 
 # Texts by which programs say that there is no number; compared in lower case. "inv" (invalid) is
 # that of track geometry cars.
