@@ -336,6 +336,19 @@ def test_no_bogies(tmp_path):
     assert "bogies: found none; expected at least two bogies" in message
 
 
+def test_enormous_values_are_refused(tmp_path):
+    """Whose products are no numbers any more."""
+    message = refusal(tmp_path, COACH.replace('"24 m"', '"1e300 m"').replace("3000 kg", "1e-99 kg"))
+    for where in ("body.length: found '1e300 m'", "bogie.mass: found '1e-99 kg'"):
+        assert f"{where}; expected a number of a size from 1e-40 to 1e+40" in message
+
+
+def test_a_very_long_key_is_told_by_its_beginning(tmp_path):
+    message = refusal(tmp_path, COACH.replace("pitch_inertia", "9" * 20_000, 1))
+    assert f"body.{'9' * 50}…: found a key that is not known" in message
+    assert len(message) < 3000
+
+
 @pytest.mark.parametrize("table", ["body = 3", "bogie = []", 'bogies = "two"', "bogies = [1, 2]"])
 def test_a_table_that_is_none(tmp_path, table):
     assert f"{table.split()[0]}" in refusal(tmp_path, f'name = "x"\n{table}\n')

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 ONE, LIST, EITHER = "one", "list", "either"
-_EXPECTED = {"": "a finite number", "> 0": "a finite number above 0",
-             ">= 0": "a finite number, 0 or more"}  # fmt: skip
 
 
 def si(unit: str, sign: str = "", many: str = ONE) -> dict[str, str]:
@@ -73,15 +71,16 @@ def check_number(faults: Faults, where: str, value: object, sign: str = "", unit
     >>> check_number(faults, "gain", "a", "> 0", "N s/m")
     >>> check_number(faults, "bandwidth", -3.0, "> 0", "Hz")
     >>> print(*faults.found, sep="\n")
-    gain: found 'a'; expected a finite number above 0 (in N s/m)
-    bandwidth: found -3.0 Hz; expected a finite number above 0
+    gain: found 'a'; expected a positive number (in N s/m)
+    bandwidth: found -3.0 Hz; expected a positive number
     """
-    if not expected_sign(finite_number(value), sign):
+    expected = expected_sign(finite_number(value), sign)
+    if not expected:
         return
     if isinstance(value, Real):
-        faults.add(where, f"{value} {unit}".rstrip(), _EXPECTED[sign])
+        faults.add(where, f"{value} {unit}".rstrip(), expected)
     else:
-        faults.add(where, repr(value), _EXPECTED[sign], f"in {unit}" if unit else "")
+        faults.add(where, repr(value), expected, f"in {unit}" if unit else "")
 
 
 def check_whole(value: object, where: str, least: int) -> None:

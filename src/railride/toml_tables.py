@@ -19,7 +19,13 @@ from railride.errors import Faults
 from railride.units import QuantityError, parse_quantity
 
 # A parameter or study file has some kilobytes; what is larger is something else.
-_LARGEST = 1_000_000
+_MOST_BYTES = 1_000_000
+
+# Longer keys and values are shown by their beginning.
+_LONGEST = 60
+
+# What a quantity of a vehicle or study may come to, in SI units.
+_LARGEST = 1e40
 
 # Keys that explain a table to its reader and are no parameters.
 _COMMENTARY = ("note", "notes", "source")
@@ -73,7 +79,7 @@ def _read_text(path: Path, faults: Faults) -> str | None:
             faults.add("file", "a folder", "a TOML file", "name the file inside it")
             return None
         with path.open("rb") as stream:
-            content = stream.read(_LARGEST + 1)
+            content = stream.read(_MOST_BYTES + 1)
     except FileNotFoundError:
         faults.add("file", "no such file", "a TOML file", "check the path")
         return None
@@ -83,8 +89,8 @@ def _read_text(path: Path, faults: Faults) -> str | None:
     except ValueError:
         faults.add("file", "a name that no file can have", "the path of a TOML file")
         return None
-    if len(content) > _LARGEST:
-        faults.add("file", f"more than {_LARGEST:,} bytes", "a TOML file of some kilobytes")
+    if len(content) > _MOST_BYTES:
+        faults.add("file", f"more than {_MOST_BYTES:,} bytes", "a TOML file of some kilobytes")
         return None
     try:
         return content.decode("utf-8-sig")
@@ -118,7 +124,8 @@ class Table:
             faults.add(where, shown(content), f"a table [{where}]")
 
     def key(self, name: str) -> str:
-        """Full name of a key in messages: ``body.mass``."""
+        """Full name of a key in messages: ``body.mass``; of a very long one its beginning."""
+        name = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 10]}…"
         return f"{self.where}.{name}" if self.where else name
 
     def __contains__(self, name: str) -> bool:
@@ -290,16 +297,22 @@ def finite_number(value: object) -> float | None:
 
 
 def expected_sign(value: float | None, sign: str) -> str:
-    """Return what was expected of a value that is none, or not of the ``sign`` asked for.
+    """Return what was expected of a value that is none, not of the ``sign`` asked for, or enormous.
 
     >>> expected_sign(-3.0, "> 0"), expected_sign(0.0, ">= 0"), expected_sign(None, "")
     ('a positive number', '', 'a finite number')
+    >>> expected_sign(-1e300, "")
+    'a number of a size from 1e-40 to 1e+40'
     """
-    if sign == "> 0":
-        return "" if value is not None and value > 0 else "a positive number"
-    if sign == ">= 0":
-        return "" if value is not None and value >= 0 else "a number of at least 0"
-    return "" if value is not None else "a finite number"
+    if sign == "> 0" and (value is None or value <= 0):
+        return "a positive number"
+    if sign == ">= 0" and (value is None or value < 0):
+        return "a number of at least 0"
+    if value is None:
+        return "a finite number"
+    # Products and quotients of a few others would be no numbers any more.
+    fits = abs(value) <= _LARGEST and (sign != "> 0" or value >= 1 / _LARGEST)
+    return "" if fits else f"a number of a size from {1 / _LARGEST:g} to {_LARGEST:g}"
 
 
 def shown(value: object) -> str:
@@ -309,7 +322,7 @@ def shown(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     text = repr(value)
-    return text if len(text) <= 60 else f"{text[:50]}…"
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 10]}…"
 
 
 def toml_text(text: str) -> str:
