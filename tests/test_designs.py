@@ -256,6 +256,16 @@ def test_modes_of_unstable_designs_are_told():
     assert np.isnan(found.a_wrms[1]).all()
 
 
+def test_modes_that_rounding_decides_are_told():
+    found = evaluate_designs(paper_coach(1), {"c_2": [7e4, 8e16]}, "erri_low", 40.0,
+                             results="modes")  # fmt: skip
+    for values in (found.natural_frequency, found.damping_ratio, found.least_damping_ratio):
+        assert np.isfinite(values[0]).all()
+        assert np.isnan(values[1]).all()
+    assert found.problems[0] == ""
+    assert "rounding decides" in found.problems[1]
+
+
 def test_static_deflections_carry_the_weight():
     """-m g/k of what stands above: half of the body on a bogie, a quarter of all on a wheelset."""
     k_1, k_2, g = np.array([4e6, 6e6]), np.array([6e5, 9e5]), 9.80665

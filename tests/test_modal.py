@@ -164,6 +164,15 @@ def test_a_mass_next_to_nothing_is_told_as_that():
     assert "mass" in str(raised.value)
 
 
+@pytest.mark.parametrize("segments", [1, 2, 4])
+def test_modes_that_rounding_decides_are_refused(segments):
+    """A damper of 8e16 N s/m: k/c and c/m are 26 powers of ten apart, a double holds 16."""
+    with pytest.raises(InputError, match=r"so far apart that rounding decides .*units"):
+        modes(paper_coach(segments), c_2=8e16)
+    slowest = min(modes(paper_coach(segments), c_2=8e7), key=lambda mode: mode.frequency_hz)
+    assert slowest.frequency_hz == pytest.approx(750e3 / 8e7 / (2 * np.pi), rel=1e-4)
+
+
 def test_several_vehicles_at_once_are_refused():
     with pytest.raises(InputError, match="one vehicle at a time"):
         modes(paper_coach(2), k_2=[5e5, 6e5])

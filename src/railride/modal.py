@@ -23,9 +23,11 @@ from railride.numeric import Array, Matrices, symmetric_eigenvalues
 from railride.vehicle import VehicleModel
 
 __all__ = ["DAMPER", "UNSTABLE", "Mode", "Solution", "eigen", "free_motions", "modes",
-           "refuse_unstable", "solution", "solve", "undamped_frequencies"]  # fmt: skip
+           "refuse_rounded", "refuse_unstable", "solution", "solve",
+           "undamped_frequencies"]  # fmt: skip
 
 UNSTABLE = 1e-9  # of |λ|: a positive real part that is more than rounding
+ROUNDED = 2e-10  # of the largest |λ|: below it rounding, 2e-16 of that, takes a mode's sixth digit
 FOREMOST = 1 - 1e-6  # of the largest entry: what is as large is equal to it
 
 
@@ -58,7 +60,8 @@ def modes(model: VehicleModel, **changes: ArrayLike) -> tuple[Mode, ...]:
 
     Raises
     ------
-    InputError : arrays among ``changes`` (one vehicle at a time); an unstable vehicle.
+    InputError : arrays among ``changes`` (one vehicle at a time); an unstable vehicle; modes that
+        rounding decides.
 
     Examples
     --------
@@ -98,7 +101,7 @@ class Solution:
         return tuple(
             Mode(
                 frequency_hz=float(abs(root) / (2 * np.pi)),
-                damping_ratio=float(-root.real / abs(root)) if root else 0.0,
+                damping_ratio=float(-root.real / abs(root)),
                 label=name.label,
                 share=name.share,
                 eigenvalue=complex(root),
@@ -119,6 +122,7 @@ def solution(model: VehicleModel, A: Matrices) -> Solution:
     x, free = first_order(A), motions(model, A)
     roots, vectors = eigen(A)
     refuse_unstable(roots)
+    refuse_rounded(roots)
     roots, vectors = settled(free, A, x, roots, vectors)
     order = np.argsort(np.abs(roots), kind="stable")
     return Solution(A, x, free, roots[order], vectors[:, order])
@@ -144,6 +148,17 @@ def eigen(A: Matrices) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     """
     roots, vectors = np.linalg.eig(first_order(A).A)
     return roots.astype(complex), vectors.astype(complex)
+
+
+def refuse_rounded(eigenvalues: NDArray[np.complex128]) -> None:
+    """Raise :class:`InputError` if rounding decides a mode, beside the largest of them."""
+    low, high = np.abs(eigenvalues).min() / (2 * np.pi), np.abs(eigenvalues).max() / (2 * np.pi)
+    if low < ROUNDED * high:
+        raise InputError(
+            f"vehicle: found modes at {low:.3g} and {high:.3g} Hz, so far apart that rounding "
+            "decides the lower; expected springs, dampers and masses that differ by fewer powers "
+            "of ten (check their units)"
+        )
 
 
 def refuse_unstable(eigenvalues: NDArray[np.complex128]) -> None:

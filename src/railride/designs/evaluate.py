@@ -159,8 +159,10 @@ class _Found:
                     self.values[name][batch.numbers, track] = values
                 self._note(batch, ridden)
         if self.known:
-            for name, values in self.known.values(batch.forms).items():
+            found, refused = self.known.values(batch.forms)
+            for name, values in found.items():
                 self.values[name][batch.numbers] = values
+            self._refuse(batch, refused)
         if "static" in self.cases.results:
             rows = self.model.output_rows(suspensions(self.model), **batch.values)["d"]
             self.values["static_deflection"][batch.numbers] = static_deflections(batch.m, rows)
@@ -170,7 +172,11 @@ class _Found:
         errors = np.where(np.isfinite(ridden.errors), ridden.errors, 0.0)
         largest = errors.reshape(len(errors), -1).max(axis=1)
         self.error[batch.numbers] = np.maximum(self.error[batch.numbers], largest)
-        for k, problem in ridden.refused.items():
+        self._refuse(batch, ridden.refused)
+
+    def _refuse(self, batch: Batch, refused: Mapping[int, str]) -> None:
+        """The first reason why a design lacks values, by its place in the batch."""
+        for k, problem in refused.items():
             number = batch.numbers[k]
             self.problems[number] = self.problems[number] or problem
 

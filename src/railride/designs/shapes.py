@@ -23,7 +23,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from railride.modal import Mode, solve
+from railride.errors import InputError
+from railride.modal import Mode, refuse_rounded, solve
 from railride.naming import energy
 from railride.numeric import Array
 from railride.stochastic.fractions import Complex, EigenForms
@@ -51,16 +52,24 @@ class KnownModes:
         size = np.sqrt(np.einsum("ik,ij,jk->k", own.vectors.conj(), E, own.vectors).real)
         self._seen_by, self._energy = (own.vectors / size).conj().T @ E, E
 
-    def values(self, forms: EigenForms) -> dict[str, Array]:
-        """``natural_frequency``, Hz, and ``damping_ratio``, (D, modes); ``least_damping_ratio``."""
-        roots = forms.poles
-        mine = self._mine(roots, forms.vectors)[:, self._kept]
+    def values(self, forms: EigenForms) -> tuple[dict[str, Array], dict[int, str]]:
+        """``natural_frequency``, Hz, and ``damping_ratio``, (D, modes); ``least_damping_ratio``.
+
+        NaN for designs of which rounding decides a mode, and why, by their places.
+        """
+        roots, refused = forms.poles.copy(), {}
+        for d, own in enumerate(roots):
+            try:
+                refuse_rounded(own)
+            except InputError as error:
+                refused[d], own[:] = str(error), np.nan
+        mine = self._mine(forms.poles, forms.vectors)[:, self._kept]
         named = np.take_along_axis(roots, mine, axis=1)
         return {
             "natural_frequency": np.abs(named) / (2 * np.pi),
             "damping_ratio": -named.real / np.abs(named),
             "least_damping_ratio": (-roots.real / np.abs(roots)).min(axis=1),
-        }
+        }, refused
 
     def _mine(self, roots: Complex, vectors: Complex) -> NDArray[np.int_]:
         """Which of a design's eigenvalues goes with each of the model's, (D, s)."""
