@@ -185,6 +185,14 @@ def test_modes_that_lanczos_misses_are_looked_for_again(monkeypatch):
     np.testing.assert_allclose(element_modes(STEPPED, 4).frequencies, exact, rtol=1e-10)
 
 
+@pytest.mark.parametrize("elements", [20, 128])
+@pytest.mark.parametrize("ends", [(EI, 1e30 * EI), (1e-25 * EI, 1e-25 * EI)])
+def test_a_body_of_which_no_modes_can_be_computed_is_refused(ends, elements):
+    profile = BodyProfile((-12, -5, 12), (ends[0], *ends), (MU, MU, MU))
+    with pytest.raises(InputError, match="no natural modes can be computed; expected"):
+        element_modes(profile, 2, elements=elements)
+
+
 def test_craig_bampton_nears_the_elements_from_above():
     full = element_modes(STEPPED, 4).frequencies
     last = np.full(4, np.inf)

@@ -8,14 +8,15 @@ import numpy as np
 
 from railride.bodies.body_modes import BodyModes
 from railride.bodies.elements import NEAREST, SAME, BeamElements
-from railride.bodies.reduction import craig_bampton, lowest_modes
+from railride.bodies.reduction import NONE, craig_bampton, lowest_modes
 from railride.body_profile import BodyProfile
-from railride.errors import Faults
+from railride.errors import Faults, InputError
 from railride.numeric import Array
 
 ELEMENTS = 128  # at least, unless the user says otherwise
 MOST = 2000  # elements; more add rounding, not digits
 PER_MODE = 2  # elements for each mode at least: ω of the highest is then 0.4 % too high
+ROUNDED = 1e-3  # of the first bending's ω²: the rigid motions' is zero but for rounding
 AGREE = 1e-3  # of ω: so near a mode of the reduced body counts as one of the elements' own
 
 
@@ -41,7 +42,8 @@ def element_modes(
 
     Raises
     ------
-    InputError : numbers that do not fit together; what :class:`BeamElements` refuses.
+    InputError : numbers that do not fit together; what :class:`BeamElements` refuses; masses and
+        stiffnesses so far apart that rounding decides the modes.
 
     Examples
     --------
@@ -53,6 +55,8 @@ def element_modes(
     places = tuple(sorted({float(x) for x in interfaces}))
     beam = BeamElements(profile, elements or min(max(ELEMENTS, 6 * count), MOST), places)
     own, motions = lowest_modes(beam.M, beam.K, count + 2)
+    if not np.abs(own[:2]).max() < ROUNDED * own[2]:
+        raise InputError(NONE)
     if places:
         motions = _reduced(beam, count)
     squares, found, products = beam.modes(motions[:, 2:])

@@ -68,6 +68,7 @@ def outside_modes(
     scale = np.sqrt(body.mass / points.modal_masses[points.flexible])
     shapes = scale[:, np.newaxis] * points.shapes[points.flexible]
     _check_scale(points, shapes, faults, remarks)
+    faults.raise_if_any()  # no products of heights that are none
     _check_products(points, body, shapes, faults, remarks)
     _check_spacing(points, shapes, faults, remarks)
     faults.raise_if_any()

@@ -30,10 +30,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from railride.errors import InputError
 from railride.numeric import Array
 
 SIGMA = (2 * np.pi * 5.0) ** 2  # 1/s²: between a car body's rigid motions and its bending
 DENSE = 100  # coordinates up to which dense matrices are as quick as sparse ones
+
+NONE = (
+    "car body: found masses and stiffnesses along it from which no natural modes can be computed; "
+    "expected those of a car body (check their units)"
+)
 
 Matrix = Any  # a square matrix, dense or of scipy.sparse
 
@@ -48,6 +54,10 @@ def lowest_modes(M: Matrix, K: Matrix, count: int) -> tuple[Array, Array]:
     M, K : (n, n), symmetric, positive semi-definite; no motion has neither mass nor stiffness.
     count : at most n.
 
+    Raises
+    ------
+    InputError : masses and stiffnesses so far apart that no modes can be computed.
+
     Examples
     --------
     >>> squares, modes = lowest_modes(np.diag([2.0, 1.0]), 800 * np.array([[1, -1], [-1, 1]]), 2)
@@ -55,10 +65,14 @@ def lowest_modes(M: Matrix, K: Matrix, count: int) -> tuple[Array, Array]:
     [0.0, 1200.0]
     """
     large = M.shape[0] > max(DENSE, 4 * count)
-    squares, modes = (_by_lanczos if large else _at_once)(M, K, count)
-    order = np.argsort(squares)
-    squares, modes = squares[order], modes[:, order]
-    if large and _misses_some(M, K, squares):
+    try:
+        squares, modes = (_by_lanczos if large else _at_once)(M, K, count)
+        order = np.argsort(squares)
+        squares, modes = squares[order], modes[:, order]
+        missed = large and _misses_some(M, K, squares)
+    except (RuntimeError, np.linalg.LinAlgError):  # of SuperLU and ARPACK; of LAPACK
+        raise InputError(NONE) from None
+    if missed:
         squares, modes = lowest_modes(M, K, 2 * count + DENSE)
     return squares[:count], modes[:, :count]
 
