@@ -128,6 +128,12 @@ def test_wavelengths_stand_above_the_wavenumbers():
     assert_allclose(sorted(top.get_xlim()), sorted(2 * np.pi / np.array(ax.get_xlim())))
 
 
+def test_a_level_track_has_no_density_to_show():
+    ax = plot_track_spectrum(replace(synthesise("erri_low", 500.0, 0.25, 3), level=np.zeros(2001)))
+    assert line(ax, "Welch").get_xdata().size == 0
+    ax.figure.draw_without_rendering()  # without a warning
+
+
 def test_spectrum_is_drawn_inside_its_own_band_alone():
     track = synthesise(spectrum("sncf_good"), 500.0, 0.25, 3)
     ax = plot_track_spectrum(track, spectrum("sncf_good"))

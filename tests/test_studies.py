@@ -10,7 +10,9 @@ import pytest
 
 from railride import InputError, derive_vehicle, read_study, spectrum, synthesise, write_track
 from railride.distributions import Distribution
+from railride.files import data_path
 from railride.studies import Draft, Listed, Range, shipped_studies
+from railride.sweeps import read_sweep_study
 
 HEAD = """
 vehicle = "cati2024"
@@ -207,6 +209,16 @@ nunber = 3
         lines = [line for line in found if f"study.toml: {where}: " in line]
         assert lines, where
         assert all(any(part in line for line in lines) for part in parts), (where, lines)
+
+
+@pytest.mark.parametrize("end", ["0 kN s/m", "1e-400 kN s/m"])
+def test_equal_ratios_to_nothing_are_refused_and_the_grid_counted(tmp_path, end):
+    path = tmp_path / "study.toml"
+    text = data_path("studies", "sweep_grid.toml").read_text(encoding="utf-8")
+    text = text.replace('to = "150 kN s/m"', f'spacing = "log"\nto = "{end}"')
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"secondary_damping.from: found a range that runs backw"):
+        read_sweep_study(path)
 
 
 @pytest.mark.parametrize(

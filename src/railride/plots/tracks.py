@@ -64,7 +64,8 @@ def plot_track_spectrum(
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(wavenumber[0], wavenumber[-1])
-    ax.plot(wavenumber, density, color=canvas.TRACK, linewidth=0.9,
+    there = density > 0.0  # nowhere on a level track
+    ax.plot(wavenumber[there], density[there], color=canvas.TRACK, linewidth=0.9,
             label=f"{track.name}, Welch's estimate")  # fmt: skip
     marked, label = _marked(spectrum, fits)
     compared = np.zeros(0)

@@ -65,6 +65,7 @@ def read_range(table: Table, unit: str, sign: str) -> Range | None:
         ends = f"from {table.content['from']!r} to {table.content['to']!r}"
         mend = "give a single value in [body] or the vehicle" if low == high else "swap the two"
         table.fault("from", f"{how}, {ends}", "a value below that of to", mend)
+        spacing = "linear"  # which has values whatever the ends are
     elif spacing == "log" and low <= 0:
         table.fault("from", repr(table.content["from"]), "a value above 0 for equal ratios",
                     'or take spacing = "linear"')  # fmt: skip
