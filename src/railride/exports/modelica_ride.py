@@ -1,13 +1,11 @@
-"""The ride in a Modelica package: the track as a table, every wheelset at its own place, weighting.
+"""The ride in a Modelica package: the coach on a track, and the weighting of what its floor feels.
 
-``Track`` holds level, slope and curvature of the track at its samples; between two of them the
-quintic that has all three at both is railride's own track, and its slope times the speed the rate.
-``Weighting`` is the frequency weighting by its factors. ``Ride`` puts the coach on the track, where
-it starts as a vehicle that follows the track; its ``a_wrms`` runs from the start of the rated
-section, so that the value at the end of the run is the weighted r.m.s.
+``Track`` is that of ``railride.exports.modelica_track``, ``Weighting`` the frequency weighting by
+its factors. ``Ride`` puts the coach on the track, where it starts as a vehicle that follows the
+track; its ``a_wrms`` runs from the start of the rated section, so that the value at the end of the
+run is the weighted r.m.s.
 
-Source: of the quintic, E. Hairer, S.P. Norsett, G. Wanner, Solving Ordinary Differential Equations
-I, 2nd ed., Springer 1993, II.6 (Hermite interpolation); of the factors ``railride.weightings``.
+Source: of the factors ``railride.weightings``.
 """
 
 from __future__ import annotations
@@ -19,6 +17,7 @@ import sympy as sp
 
 from railride.exports import as_modelica as modelica
 from railride.exports.content import Content
+from railride.exports.modelica_track import track
 from railride.exports.setup import Setup
 
 NAMES, number = modelica.NAMES, modelica.number
@@ -28,41 +27,9 @@ FLOOR = "floor_acceleration"
 def ride(content: Content, setup: Setup) -> list[str]:
     """Track, weighting and ride."""
     count = len(content.elevations)
-    return [*_HERMITE.splitlines(), *_track(setup, count), *_SECOND_ORDER.splitlines(),
+    return [*track(setup, count), *_SECOND_ORDER.splitlines(),
             *_weighting(setup), *_ride(content, setup)]  # fmt: skip
 
-
-_HERMITE = """
-function quintic "Level and slope of a track at a place"
-  input Real x(unit = "m") "place";
-  input Real x_0(unit = "m") "place of the first row";
-  input Real step(unit = "m") "from row to row";
-  input Real pieces[:, 3] "level (m), slope and curvature (1/m) at every row";
-  output Real w(unit = "m") "level; outside the table that of the nearest row";
-  output Real slope;
-protected
-  Integer i "row before the place";
-  Real u "place in steps";
-  Real r "part of a step behind row i";
-  Real w_0, w_1, d_0, d_1, c_0, c_1 "per step";
-  Real a_3, a_4, a_5;
-algorithm
-  u := min(max((x - x_0)/step, 0), size(pieces, 1) - 1);
-  i := min(integer(floor(u)), size(pieces, 1) - 2) + 1;
-  r := u - (i - 1);
-  w_0 := pieces[i, 1];
-  w_1 := pieces[i + 1, 1];
-  d_0 := step*pieces[i, 2];
-  d_1 := step*pieces[i + 1, 2];
-  c_0 := step*step*pieces[i, 3];
-  c_1 := step*step*pieces[i + 1, 3];
-  a_3 := 10*(w_1 - w_0) - 6*d_0 - 4*d_1 - (3*c_0 - c_1)/2;
-  a_4 := -15*(w_1 - w_0) + 8*d_0 + 7*d_1 + (3*c_0 - 2*c_1)/2;
-  a_5 := 6*(w_1 - w_0) - 3*(d_0 + d_1) - (c_0 - c_1)/2;
-  w := w_0 + r*(d_0 + r*(c_0/2 + r*(a_3 + r*(a_4 + r*a_5))));
-  slope := (d_0 + r*(c_0 + r*(3*a_3 + r*(4*a_4 + r*5*a_5))))/step;
-end quintic;
-"""
 
 _SECOND_ORDER = """
 block SecondOrder "(b[1] s^2 + b[2] s + b[3])/(a[1] s^2 + a[2] s + a[3])"
@@ -80,34 +47,6 @@ equation
   y = b[1]*ddx + b[2]*dx + b[3]*x;
 end SecondOrder;
 """
-
-
-def _track(setup: Setup, wheelsets: int) -> list[str]:
-    rows = ["{" + ", ".join(number(value) for value in row) + "}" for row in setup.pieces]
-    each = range(1, wheelsets + 1)
-    return [
-        "",
-        f"block Track {modelica.quoted(setup.track)}",
-        '  parameter Real V(unit = "m/s") "speed";',
-        (f'  parameter Real start(unit = "m") = {number(setup.start)} "place of the leading '
-        'wheelset at time 0";'),
-        *(f'  parameter Real behind_{j}(unit = "m") "of wheelset {j}, behind the leading one";'
-          for j in each),
-        f'  parameter Real x_0(unit = "m") = {number(setup.distance0)} "place of the first row";',
-        f'  parameter Real step(unit = "m") = {number(setup.step)} "from row to row";',
-        f"  parameter Real pieces[{len(rows)}, 3] = {{",
-        *(f"    {row}," for row in rows[:-1]),
-        f'    {rows[-1]}}} "level (m), slope and curvature (1/m) at every row";',
-        *(f'  RealOutput w_{j}(unit = "m");' for j in each),
-        *(f'  RealOutput dw_{j}(unit = "m/s");' for j in each),
-        "protected",
-        *(f"  Real slope_{j};" for j in each),
-        "equation",
-        *(line for j in each for line in (
-            f"  (w_{j}, slope_{j}) = quintic(start - behind_{j} + V*time, x_0, step, pieces);",
-            f"  dw_{j} = V*slope_{j};")),
-        "end Track;",
-    ]  # fmt: skip
 
 
 def _weighting(setup: Setup) -> list[str]:
