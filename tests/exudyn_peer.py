@@ -71,6 +71,20 @@ def graded(body, count, density):
     return parts
 
 
+def coach_of(model, density=None, track=None):
+    """The vehicle of a railride model of segments in Exudyn, its hinges those of the model.
+
+    density : of a car body whose mass is graded, kg/m at x. track : as for :class:`Coach`.
+    """
+    body, count, values = model.vehicle.body, model.body.segments, model.values()
+    joints = [float(values.get(name, 0.0)) for name in ("k_theta", "c_theta")]
+    if count == 1:
+        parts = whole(body)
+    else:
+        parts = graded(body, count, density) if density else equal_rods(body, count)
+    return Coach(model.vehicle, parts, joints, track)
+
+
 class Coach:
     """A vehicle in Exudyn.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from exudyn_peer import Coach, equal_rods, graded, whole
+from exudyn_peer import coach_of
 from smooth_tracks import Waves
 from vehicles import density, paper_coach, random_model
 
@@ -16,22 +16,6 @@ SPEED = 145 * KMH
 BEHIND = (0.0, 2.5, 17.5, 20.0)
 FLOOR = (0.0, 5.0)  # m forward of the middle
 STOP = 2.0  # s
-
-
-def joints(model):
-    values = model.values()
-    return [float(values.get(name, 0.0)) for name in ("k_theta", "c_theta")]
-
-
-def coach(model, segments, track=None):
-    """The model's vehicle in Exudyn, its body as ``segments`` parts."""
-    body = model.vehicle.body
-    parts = (
-        whole(body) if segments == 1
-        else equal_rods(body, segments) if body.inertia == "rods" or body.mass_centre == 0.0
-        else graded(body, segments, density(body))
-    )  # fmt: skip
-    return Coach(model.vehicle, parts, joints(model), track)
 
 
 def linear(model, track, step):
@@ -50,26 +34,29 @@ def apart(one, other):
 CASES = [("the paper's", N) for N in (1, 2, 3, 4, 8)] + [("unlike", 3), ("unlike", 4)]
 
 
-def model_of(kind, segments):
-    return paper_coach(segments) if kind == "the paper's" else random_model(2, segments)
+def pair(kind, segments):
+    """The model, and the same vehicle in Exudyn."""
+    if kind == "unlike":
+        model = random_model(2, segments)
+        return model, coach_of(model, density(model.vehicle.body))
+    return paper_coach(segments), coach_of(paper_coach(segments))
 
 
 @pytest.mark.parametrize(("kind", "segments"), CASES)
 def test_natural_frequencies(kind, segments):
     """All of them to 1e-6; here the two programs agree to rounding."""
-    model = model_of(kind, segments)
-    own = undamped_frequencies(model.matrices())
-    other = coach(model, segments).frequencies()
+    model, other = pair(kind, segments)
+    own, other = undamped_frequencies(model.matrices()), other.frequencies()
     assert len(other) == len(own)
     assert np.abs(other / own - 1).max() < 1e-9
 
 
 @pytest.mark.parametrize(("kind", "segments"), [("the paper's", 4), ("unlike", 4)])
 def test_damped_eigenvalues(kind, segments):
-    model = model_of(kind, segments)
+    model, other = pair(kind, segments)
     own, _ = eigen(model.matrices())
     own = np.array(sorted(own[own.imag >= 0], key=abs))
-    other = coach(model, segments).eigenvalues()
+    other = other.eigenvalues()
     assert np.abs(other - own).max() < 1e-9 * np.abs(own).max()
 
 
@@ -77,7 +64,7 @@ def test_unlike_vehicles_are_told_apart():
     """The comparison would see a stiffness that is 1e-5 off."""
     model = paper_coach(2)
     changed = undamped_frequencies(model.matrices(k_2=750e3 * 1.00001))
-    other = coach(model, 2).frequencies()
+    other = coach_of(model).frequencies()
     assert np.abs(other / changed - 1).max() > 1e-6
 
 
@@ -87,7 +74,7 @@ def test_a_ride_converges_to_railrides_with_the_square_of_the_step():
     fine = linear(model, track, 0.125e-3 / 4)
     errors = []
     for step in (1e-3, 0.5e-3, 0.25e-3):
-        _, found = coach(model, 2, track).run(STOP, step, FLOOR)
+        _, found = coach_of(model, track=track).run(STOP, step, FLOOR)
         own = fine[:, :: round(step / (0.125e-3 / 4))]
         errors.append(apart(found, own))
     assert errors[-1].max() < 1e-3
@@ -110,7 +97,7 @@ def test_where_linearisation_ends(segments, at_100):
     of = {}
     for scale in (0.01, 1, 10, 100):
         track = Waves(SPEED, BEHIND, scale)
-        of[scale] = coach(model, segments, track).run(STOP, 2e-3, FLOOR)[1] / scale
+        of[scale] = coach_of(model, track=track).run(STOP, 2e-3, FLOOR)[1] / scale
     errors = {scale: apart(of[scale], of[0.01]).max() for scale in (1, 10, 100)}
     assert errors[1] < 1e-5
     assert errors[10] / errors[1] == pytest.approx(100, rel=0.05)

@@ -36,6 +36,7 @@ _WHERE = {
     "track": ("Track", "synthesise"),
     "trackfile": ("read_track", "write_track"),
     "response": ("simulate",),
+    "nonlinear": ("simulate_nonlinear",),
     "stochastic": ("stochastic_ride", "comfort_map", "measured_spectrum", "mode_shares",
                    "output_statistics", "spectrum_fits", "third_octaves"),
     "weightings": ("Weighting", "weighting", "weighting_names", "apply_weighting"),

@@ -1,0 +1,174 @@
+r"""The nonlinear equations of motion, integrated step by step: what linearisation leaves out.
+
+Lagrange's equations are linear in the second rates of the coordinates that carry mass and in the
+rates of those that carry none, together u:
+
+.. math:: A(q, \dot q)\, u = b(q, \dot q, w, \dot w, f) , \qquad
+          x = (q_I, q_m, \dot q_I), \quad \dot x = (\dot q_I, \dot q_m, \ddot q_I)
+
+with the states as in ``railride.firstorder``. A and b come from the energies with symbols, become
+functions once, and are integrated by the explicit Runge-Kutta method of order 8 with its error
+controlled (Dormand and Prince's DOP853).
+
+Source: E. Hairer, S.P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+Springer 1993, II.5; of the equations ``railride.lagrange``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike
+
+from railride.errors import InputError
+from railride.lagrange import Signal
+from railride.numeric import Array
+from railride.response import Response
+from railride.statespace import chosen_outputs
+from railride.vehicle import Output, VehicleModel
+
+Track = Callable[[float], tuple[ArrayLike, ArrayLike]]
+
+
+def simulate_nonlinear(
+    model: VehicleModel,
+    track: Track,
+    times: ArrayLike,
+    outputs: Output | str | Sequence[Output | str] | None = None,
+    *,
+    x0: ArrayLike | None = None,
+    rtol: float = 1e-9,
+    atol: float = 1e-12,
+) -> Response:
+    r"""Run the nonlinear vehicle over a track: outputs at the times, not linearised.
+
+    Parameters
+    ----------
+    track : gives elevations w (m) and rates ẇ (m/s) under the wheelsets, each (wheelsets,), at a
+        time in s. Make it smooth: every kink costs steps.
+    times : (n,), s, ascending; the run begins at the first. The actuators rest.
+    outputs : one or several, or their names; default: the floor's acceleration over the middle.
+    x0 : (states,), the state at the first time, coordinates and rates as the linear state space
+        orders them; at rest if not given.
+    rtol, atol : tolerances of one step, relative and absolute (in the states' units).
+
+    Returns
+    -------
+    Response : outputs (outputs, n) at the times, which count from the first.
+
+    Raises
+    ------
+    InputError : times that do not ascend; a state of another length; an output that does not exist
+        or that feels the elevation's second rate; a run that leaves what the model can be (a body
+        turned upright).
+
+    Examples
+    --------
+    >>> from railride.vehicle import derive_vehicle
+    >>> step = 10e-3 * np.ones(4), np.zeros(4)  # a coach set down 10 mm too low
+    >>> model = derive_vehicle("cati2024", segments=1)
+    >>> found = simulate_nonlinear(model, lambda t: step, np.linspace(0.0, 5.0, 6))
+    >>> bool(abs(found.final_state[0] - 10e-3) < 1e-3)
+    True
+    """
+    from scipy.integrate import solve_ivp
+
+    t = np.asarray(times, dtype=float)
+    if t.ndim != 1 or t.size < 2 or not (np.isfinite(t).all() and (np.diff(t) > 0).all()):
+        raise InputError("times: found none that ascend; expected two at least, in s, each after "
+                         "the one before it")  # fmt: skip
+    equations = NonlinearEquations(model, chosen_outputs(model, outputs))
+    start = np.zeros(equations.states) if x0 is None else np.asarray(x0, dtype=float)
+    if start.shape != (equations.states,):
+        raise InputError(f"x0: found the shape {start.shape}; expected ({equations.states},)")
+
+    def slope(time: float, x: Array) -> Array:
+        return equations.slope(x, *track(time))
+
+    with np.errstate(all="ignore"):  # told below
+        try:
+            run = solve_ivp(slope, (t[0], t[-1]), start, "DOP853", t, rtol=rtol, atol=atol)
+        except np.linalg.LinAlgError:
+            run = None
+        if run is None or not run.success or not np.isfinite(run.y).all():
+            raise InputError("nonlinear run: found that it cannot be followed to its end; expected "
+                             "motions that the vehicle can make (a smaller track?)")  # fmt: skip
+        found = [equations.read(x, *track(time)) for time, x in zip(t, run.y.T, strict=True)]
+    return Response(t - t[0], np.array(found).T, run.y[:, -1])
+
+
+class NonlinearEquations:
+    """A vehicle's equations A u = b and outputs as functions of its state.
+
+    model : the vehicle, its parameters put in as numbers. outputs : to be read.
+    """
+
+    def __init__(self, model: VehicleModel, outputs: Sequence[Output]) -> None:
+        named = {f"{k}: {output.name}": output.expression for k, output in enumerate(outputs)}
+        self.system = replace(model.lagrangian, outputs=named).written_out
+        own = model.matrices().inertial
+        q = self.system.coordinates
+        self.inertial = [s for s, mass in zip(q, own, strict=True) if mass]
+        self.massless = [s for s, mass in zip(q, own, strict=True) if not mass]
+        self.states = len(q) + len(self.inertial)
+        self._values = self._numbers(model)
+
+    def _numbers(self, model: VehicleModel) -> dict[str, float]:
+        values = model.values()
+        symbols = set().union(*(u.free_symbols for u in self.system.outputs.values()))
+        left = [s for s in symbols if not isinstance(s, Signal) and s.name not in values]
+        values |= model.body.dependent_values(values, left)
+        return {name: float(value) for name, value in values.items()}
+
+    @cached_property
+    def _arguments(self) -> list[sp.Symbol]:
+        """What the functions take: the state, then w and ẇ."""
+        w = self.system.inputs
+        rates = [s.dot for s in self.inertial]
+        return [*self.inertial, *self.massless, *rates, *w, *(s.dot for s in w)]
+
+    @cached_property
+    def _unknown(self) -> list[sp.Symbol]:
+        return [s.dot for s in self.massless] + [s.ddot for s in self.inertial]
+
+    def _function(self, expressions: Any, *more: sp.Symbol) -> Callable[..., Any]:
+        """A function of the state, the track and ``more``, the parameters put in."""
+        rest = dict.fromkeys(self.system.forces, 0)
+        table = {s: self._values[s.name] for e in expressions for s in e.free_symbols
+                 if not isinstance(s, Signal)}  # fmt: skip
+        put_in = [e.xreplace({**rest, **table}) for e in expressions]
+        function: Callable[..., Any] = sp.lambdify([*self._arguments, *more], put_in, "numpy",
+                                                   cse=True)  # fmt: skip
+        return function
+
+    @cached_property
+    def _balance(self) -> Callable[..., Any]:
+        """The entries of A, row by row, then b."""
+        equations = self.system.equations()
+        still = dict.fromkeys(self._unknown, 0)
+        A = equations.jacobian(self._unknown)
+        return self._function([*A, *(-e.xreplace(still) for e in equations)])
+
+    @cached_property
+    def _outputs(self) -> Callable[..., Any]:
+        return self._function(list(self.system.outputs.values()), *self._unknown)
+
+    def _solved(self, x: Array, w: ArrayLike, dw: ArrayLike) -> Array:
+        """The rates without mass, then the accelerations."""
+        n = len(self._unknown)
+        entries = np.array(self._balance(*x, *np.asarray(w), *np.asarray(dw)), dtype=float)
+        return np.asarray(np.linalg.solve(entries[: n * n].reshape(n, n), entries[n * n :]))
+
+    def slope(self, x: Array, w: ArrayLike, dw: ArrayLike) -> Array:
+        """ẋ at a state, the elevations w (m) and rates ẇ (m/s) under the wheelsets."""
+        return np.concatenate([x[-len(self.inertial) :], self._solved(x, w, dw)])
+
+    def read(self, x: Array, w: ArrayLike, dw: ArrayLike) -> Array:
+        """The outputs there."""
+        u = self._solved(x, w, dw)
+        return np.array(self._outputs(*x, *np.asarray(w), *np.asarray(dw), *u), dtype=float)
