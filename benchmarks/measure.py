@@ -16,6 +16,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+Case = tuple[Callable[[Callable[[], None]], dict[str, Any]], int]
+"""What measures, given what to call after each step, and the number of steps."""
+
 ROOT = Path(__file__).resolve().parents[1]
 
 ONE_THREAD = {
@@ -68,14 +71,30 @@ def run(*arguments: str) -> Usage:
     return Usage(wall, used.ru_utime + used.ru_stime, float(used.ru_maxrss * unit), text)
 
 
-def worker(name: str, file: str = "workers.py") -> dict[str, Any]:
+def worker(file: str, name: str) -> dict[str, Any]:
     """What ``python FILE NAME`` measured inside itself, in a process of its own, and its ``peak``.
 
     That is the peak memory of the whole process, in bytes.
     """
-    usage = run(str(ROOT / "benchmarks" / file), name)
+    usage = run(file, name)
     result: dict[str, Any] = json.loads(usage.output)
     return result | {"peak": usage.peak}
+
+
+def answer(workers: dict[str, Callable[[], dict[str, Any]]]) -> None:
+    """Print as JSON what the worker measured that the command line names.
+
+    Imports are not part of its times. The BLAS was set to one thread before this process started,
+    and so before numpy is imported.
+    """
+    json.dump(workers[sys.argv[1]](), sys.stdout)
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Seconds of wall time, and the result."""
+    start = time.perf_counter()
+    result = work()
+    return time.perf_counter() - start, result
 
 
 def interleaved(

@@ -1,0 +1,171 @@
+"""Deriving and linearising: the cases, and what is timed in processes of their own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from entry import at_least, at_most, entry
+from measure import Case, answer, interleaved, median, run, timed, worker
+
+SEGMENTS = 8
+ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
+DERIVE = ("-m", "railride.derive", "--segments")
+
+
+def derive_linearise(step: Callable[[], None]) -> dict[str, Any]:
+    """Energies to linear matrices at N = 8, each run in a fresh process, imports not counted.
+
+    The peer takes about a minute, so it is run twice only.
+    """
+    sides = (lambda: worker(__file__, "derive-railride"), lambda: worker(__file__, "derive-sympy"))
+    own_runs, peer_runs = interleaved(sides, ROUNDS, step)
+    own = median([r["seconds"] for r in own_runs])
+    peer = median([r["seconds"] for r in peer_runs])
+    difference = max(r["difference"] for r in peer_runs)
+    return entry(
+        "derive-linearise",
+        own,
+        peer,
+        rounds=ROUNDS,
+        railride="derive_vehicle(cati2024, segments=8).linear from scratch, wall time",
+        peer="sympy LagrangesMethod, form_lagranges_equations, linearize; same energies, written "
+        "out, without the rates of the inputs, which it refuses; wall time",
+        targets=[
+            at_least("times faster", peer / own, 100),
+            at_most("largest difference / largest value, M C K K_w", difference, 1e-9),
+        ],
+    )
+
+
+def derive_process(step: Callable[[], None]) -> dict[str, Any]:
+    """CPU of the whole process ``python -m railride.derive --segments 4`` against a bare sympy."""
+    sides = (lambda: run(*DERIVE, "4").cpu, lambda: run("-c", "import sympy").cpu)
+    # Once unmeasured: the byte code is written, the files are in memory.
+    interleaved(sides, 1, lambda: None)
+    own, peer = (median(times) for times in interleaved(sides, PROCESS_ROUNDS, step))
+    return entry(
+        "derive-process",
+        own,
+        peer,
+        rounds=PROCESS_ROUNDS,
+        railride="python -m railride.derive --segments 4, CPU of the whole process",
+        peer='python -c "import sympy", CPU of the whole process',
+        targets=[at_most("ratio", own / peer, 3)],
+    )
+
+
+def derive_growth(step: Callable[[], None]) -> dict[str, Any]:
+    """How the CPU of ``python -m railride.derive --segments N`` grows: N = 64 over N = 16.
+
+    Both less the CPU of N = 1, the start of the program. The exponent is that of N^x between them.
+    """
+    segments = (1, 16, 32, 64)
+    sides = [partial(run, *DERIVE, str(n)) for n in segments]
+    sides[0]()
+    runs = dict(zip(segments, interleaved(sides, GROWTH_ROUNDS, step), strict=True))
+    cpu = {n: median([r.cpu for r in runs[n]]) for n in segments}
+    peak = max(r.peak for r in runs[64]) / 1e6
+    own, peer = cpu[64] - cpu[1], cpu[16] - cpu[1]
+    # No growth to speak of is an exponent of nothing, not of a logarithm of noise.
+    exponent = math.log(own / peer) / math.log(64 / 16) if own > 0 and peer > 0 else math.nan
+    return entry(
+        "derive-growth",
+        own,
+        peer,
+        rounds=GROWTH_ROUNDS,
+        railride="python -m railride.derive --segments 64, CPU less that of --segments 1",
+        peer="the same program with --segments 16, CPU less that of --segments 1",
+        cpu_s={str(n): cpu[n] for n in segments},
+        peak_memory_mb=peak,
+        targets=[
+            at_most("exponent from N = 16 to 64", exponent, 1.6),
+            at_most("peak memory at N = 64, MB", peak, 500),
+        ],
+    )
+
+
+def derive_railride() -> dict[str, Any]:
+    """From the parameters of the vehicle to its linear matrices in symbols."""
+    from railride.parameters import load_vehicle
+    from railride.vehicle import derive_vehicle
+
+    vehicle = load_vehicle("cati2024")
+    seconds, _ = timed(lambda: derive_vehicle(vehicle, segments=SEGMENTS).linear)
+    return {"seconds": seconds}
+
+
+def derive_sympy() -> dict[str, Any]:
+    """sympy's LagrangesMethod with linearize on the same energies; the matrices compared after.
+
+    It refuses rates of inputs, so the dissipation function is that of a track at rest (w' = 0),
+    and C_w is not among the matrices it gives.
+    """
+    from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame, dynamicsymbols
+
+    from railride.parameters import load_vehicle
+    from railride.vehicle import derive_vehicle
+
+    model = derive_vehicle(load_vehicle("cati2024"), segments=SEGMENTS)
+    system = model.lagrangian.written_out
+    function = {s: dynamicsymbols(s.name) for s in (*system.coordinates, *system.inputs)}
+    table: dict[Any, Any] = dict(function)
+    for s, of_time in function.items():
+        table[s.dot] = of_time.diff() if s in system.coordinates else 0
+    q = [function[s] for s in system.coordinates]
+    # The energies are prepared outside the time: the peer starts from them, written for it.
+    kinetic, potential = system.kinetic.xreplace(table), system.potential.xreplace(table)
+    frame = ReferenceFrame("N")
+    loads = []
+    for s in system.coordinates:
+        point = Point(f"P_{s.name}")
+        point.set_vel(frame, table[s.dot] * frame.x)
+        loads.append((point, -system.dissipation.diff(s.dot).xreplace(table) * frame.x))
+
+    def work() -> Any:
+        method = LagrangesMethod(kinetic - potential, q, forcelist=loads, frame=frame)
+        method.form_lagranges_equations()
+        rest = {x: 0 for s in q for x in (s, s.diff(), s.diff().diff())}
+        return method.linearize(q_ind=q, qd_ind=[x.diff() for x in q], op_point=rest)
+
+    seconds, linear = timed(work)
+    return {"seconds": seconds, "difference": _largest_difference(model, linear)}
+
+
+def _largest_difference(model: Any, linear: Any) -> float:
+    """Between M, C, K, K_w of the two, as numbers, as a fraction of each matrix's largest."""
+    import numpy as np
+    import sympy as sp
+
+    values = {name: float(value) for name, value in model.values().items()}
+    mass, state, inputs, order = linear
+
+    def number(matrix: Any) -> Any:
+        by_name = {s: values[s.name] for s in matrix.free_symbols if s.name in values}
+        at_rest = dict.fromkeys(matrix.atoms(sp.core.function.AppliedUndef), 0)
+        return np.array(matrix.xreplace(by_name).xreplace(at_rest).tolist(), dtype=float)
+
+    m, n = model.matrices(), len(model.lagrangian.coordinates)
+    names = [s.func.__name__ for s in order]
+    columns = [names.index(s.name) for s in model.lagrangian.inputs]
+    A = number(state)[n:]
+    pairs = [
+        (number(mass)[n:, n:], m.M),
+        (-A[:, :n], m.K),
+        (-A[:, n:], m.C),
+        (number(inputs)[n:][:, columns], m.K_w),
+    ]
+    return max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs)
+
+
+CASES: dict[str, Case] = {
+    "derive-linearise": (derive_linearise, ROUNDS),
+    "derive-process": (derive_process, PROCESS_ROUNDS),
+    "derive-growth": (derive_growth, GROWTH_ROUNDS),
+}
+WORKERS = {"derive-railride": derive_railride, "derive-sympy": derive_sympy}
+
+if __name__ == "__main__":
+    answer(WORKERS)
