@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import derivation
 import frequency
+import growth
+import peer_rides
 import records
 import rides
 import studies
@@ -12,7 +14,9 @@ from measure import Case
 
 CASES: dict[str, Case] = {
     **rides.CASES,
+    **peer_rides.CASES,
     **derivation.CASES,
+    **growth.CASES,
     **frequency.CASES,
     **records.CASES,
     **studies.CASES,

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 from entry import at_least, at_most, entry
@@ -54,36 +52,6 @@ def derive_process(step: Callable[[], None]) -> dict[str, Any]:
         railride="python -m railride.derive --segments 4, CPU of the whole process",
         peer='python -c "import sympy", CPU of the whole process',
         targets=[at_most("ratio", own / peer, 3)],
-    )
-
-
-def derive_growth(step: Callable[[], None]) -> dict[str, Any]:
-    """How the CPU of ``python -m railride.derive --segments N`` grows: N = 64 over N = 16.
-
-    Both less the CPU of N = 1, the start of the program. The exponent is that of N^x between them.
-    """
-    segments = (1, 16, 32, 64)
-    sides = [partial(run, *DERIVE, str(n)) for n in segments]
-    sides[0]()
-    runs = dict(zip(segments, interleaved(sides, GROWTH_ROUNDS, step), strict=True))
-    cpu = {n: median([r.cpu for r in runs[n]]) for n in segments}
-    peak = max(r.peak for r in runs[64]) / 1e6
-    own, peer = cpu[64] - cpu[1], cpu[16] - cpu[1]
-    # No growth to speak of is an exponent of nothing, not of a logarithm of noise.
-    exponent = math.log(own / peer) / math.log(64 / 16) if own > 0 and peer > 0 else math.nan
-    return entry(
-        "derive-growth",
-        own,
-        peer,
-        rounds=GROWTH_ROUNDS,
-        railride="python -m railride.derive --segments 64, CPU less that of --segments 1",
-        peer="the same program with --segments 16, CPU less that of --segments 1",
-        cpu_s={str(n): cpu[n] for n in segments},
-        peak_memory_mb=peak,
-        targets=[
-            at_most("exponent from N = 16 to 64", exponent, 1.6),
-            at_most("peak memory at N = 64, MB", peak, 500),
-        ],
     )
 
 
@@ -163,7 +131,6 @@ def _largest_difference(model: Any, linear: Any) -> float:
 CASES: dict[str, Case] = {
     "derive-linearise": (derive_linearise, ROUNDS),
     "derive-process": (derive_process, PROCESS_ROUNDS),
-    "derive-growth": (derive_growth, GROWTH_ROUNDS),
 }
 WORKERS = {"derive-railride": derive_railride, "derive-sympy": derive_sympy}
 

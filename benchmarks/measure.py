@@ -26,7 +26,7 @@ ONE_THREAD = {
 } | {"VECLIB_MAXIMUM_THREADS": "1"}
 """What keeps every usual BLAS to one thread, provided it is set before numpy is imported."""
 
-PACKAGES = ("railride", "sympy", "numpy", "scipy", "control")
+PACKAGES = ("railride", "sympy", "numpy", "scipy", "control", "rumoca", "exudyn")
 
 
 class MeasurementError(RuntimeError):

@@ -210,7 +210,8 @@ class Coach:
         settings = exu.SimulationSettings()
         settings.timeIntegration.numberOfSteps = round(stop / step)
         settings.timeIntegration.endTime = stop
-        settings.timeIntegration.generalizedAlpha.spectralRadius = 1.0  # nothing is damped away
+        # Below 1, or the noise of the constraints grows over a long run.
+        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
         settings.timeIntegration.newton.relativeTolerance = 1e-10
         settings.timeIntegration.newton.absoluteTolerance = 1e-12
         settings.timeIntegration.newton.useModifiedNewton = True
