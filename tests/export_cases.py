@@ -11,6 +11,7 @@ from vehicles import random_vehicle
 
 from railride.exports.content import content_of
 from railride.parameters import Equipment, Load, load_vehicle
+from railride.running_gear import actuator, primary_deflection, secondary_deflection
 from railride.vehicle import Output, derive_vehicle
 
 COACH = load_vehicle("cati2024")
@@ -32,11 +33,13 @@ every_body = pytest.mark.parametrize("kind", BODIES)
 
 @cache
 def content(kind):
-    """The content of an export, with outputs that feel rates too."""
+    """The content of an export, with outputs that feel rates and forces too."""
     vehicle, body = BODIES[kind]
     found = content_of(derive_vehicle(vehicle, **body), at=[0.0, 2.5])
     model = found.model
-    more = [Output(f"d{d.name}", d.dot, "m/s", "") for d in model.running_gear.strokes]
+    more = [Output(f"{d.name}_rate", d.dot, "m/s", "") for d in model.running_gear.strokes]
+    more += [Output("primary_1_rate", primary_deflection(1).dot, "m/s", "")]
+    more += [Output("pushed_deflection", secondary_deflection(1) + 1e-6 * actuator(1), "m", "")]
     return replace(found, outputs=(*found.outputs, model.floor(1.0, derivative=1), *more))
 
 

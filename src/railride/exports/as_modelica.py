@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.printing.str import StrPrinter
 
+from railride.errors import Faults
 from railride.exports import source
 from railride.exports.content import Content, Quantity
 from railride.exports.names import Names
@@ -51,7 +52,13 @@ SHORT = 72  # an equation that stands on one line
 
 
 def written(content: Content, setup: Setup | None = None) -> str:
-    """The package's text; with a ``setup``, the ride over its track as well."""
+    """The package's text; with a ``setup``, the ride over its track as well.
+
+    Raises
+    ------
+    InputError : an output that has the name of something else in ``Coach``.
+    """
+    _check_names(content)
     name = NAMES.written(content.name)
     lines = [
         "within ;",
@@ -65,6 +72,21 @@ def written(content: Content, setup: Setup | None = None) -> str:
 
         lines += _indented(ride(content, setup))
     return "\n".join([*lines, f"end {name};", ""])
+
+
+def _check_names(content: Content) -> None:
+    """Refuse outputs with names that the model has for something else; only theirs are free."""
+    known = {p.name: "a parameter" for p in content.parameters}
+    known |= {u.name: "an input" for u in (*content.elevations, *content.rates, *content.forces)}
+    for q in content.coordinates:
+        known |= {q.name: "a coordinate", f"d{q.name}": f"the rate of {q.name}"}
+        known |= {f"dd{q.name}": f"the acceleration of {q.name}"}
+    faults = Faults("export to Modelica")
+    for output in content.outputs:
+        if output.name in known:
+            faults.add(f"output {output.name!r}", f"the name of {known[output.name]}",
+                       "a name of its own", "rename it")  # fmt: skip
+    faults.raise_if_any()
 
 
 def unit(own: str) -> str:

@@ -132,5 +132,5 @@ def _standing(content: Content, setup: Setup) -> list[str]:
     for q, own, z, dz in zip(content.coordinates, inertial, setup.q, setup.dq, strict=True):
         starts.append(f"{NAMES.written(q.name)}(start = {number(z)})")
         if own:
-            starts.append(f"{NAMES.written(f'd{q.name}')}(start = {number(dz)})")
+            starts.append(f"{NAMES.written(f'd{q.name}')}(start = {number(dz / setup.speed)}*V)")
     return ["  Coach coach(", *(f"    {start}," for start in starts[:-1]), f"    {starts[-1]});"]

@@ -66,7 +66,7 @@ def _page(k: int, first: int, rows: Array) -> list[str]:
     return [
         "",
         f'function page_{k} "Rows {first} to {first + len(rows) - 1} of the track"',
-        '  input Integer i "row of the page, from 1";',
+        '  input Integer i "row of the page, from 0";',
         '  input Real r "part of a step behind it";',
         '  input Real step(unit = "m") "from row to row";',
         '  output Real w(unit = "m");',
@@ -76,7 +76,7 @@ def _page(k: int, first: int, rows: Array) -> list[str]:
         *(f"    {row}," for row in written[:-1]),
         f"    {written[-1]}}};",
         "algorithm",
-        "  (w, slope) := quintic(r, step, z[i, :], z[i + 1, :]);",
+        "  (w, slope) := quintic(r, step, z[i + 1, :], z[i + 2, :]);",
         f"end page_{k};",
     ]
 
@@ -84,7 +84,8 @@ def _page(k: int, first: int, rows: Array) -> list[str]:
 def _level(setup: Setup, pages: int) -> list[str]:
     """The function that finds a place's page, and in it the place."""
     last = len(setup.pieces) - 1
-    cases = [f"(w, slope) := page_{k}(i - {k * PAGE} + 1, u - i, step);" for k in range(pages)]
+    rows = ["i", *(f"i - {k * PAGE}" for k in range(1, pages))]
+    cases = [f"(w, slope) := page_{k}({row}, u - i, step);" for k, row in enumerate(rows)]
     chosen = [line for k, case in enumerate(cases[:-1]) for line in (
         f"  {'elseif' if k else 'if'} i < {(k + 1) * PAGE} then", f"    {case}")]  # fmt: skip
     chosen += ["  else", f"    {cases[-1]}", "  end if;"] if chosen else [f"  {cases[-1]}"]
