@@ -9,7 +9,7 @@ from entry import at_least, at_most, entry
 from measure import Case, answer, interleaved, median, run, timed, worker
 
 SEGMENTS = 8
-ROUNDS, PROCESS_ROUNDS, GROWTH_ROUNDS = 2, 7, 3
+ROUNDS, PROCESS_ROUNDS = 2, 7
 DERIVE = ("-m", "railride.derive", "--segments")
 
 
