@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -67,20 +67,39 @@ def random_model(seed, segments):
 
 def mirrored(vehicle):
     """The same vehicle seen from the other side: what was in front is at the rear."""
-    body = vehicle.body
-    return Vehicle(
-        name=vehicle.name,
-        body=_with(body, mass_centre=-body.mass_centre),
-        bogies=tuple(
-            _with(b, position=-b.position, wheelsets=tuple(-x for x in reversed(b.wheelsets)))
-            for b in reversed(vehicle.bogies)
-        ),
+    body, profile = vehicle.body, vehicle.body.profile
+
+    def back(values):
+        return values[::-1] if isinstance(values, tuple) else values
+
+    def turned(values):
+        return None if values is None else tuple(-x for x in reversed(values))
+
+    if profile is not None:
+        columns = ("bending_stiffness", "mass_per_length", "shear_stiffness", "rotary_inertia")
+        profile = replace(profile, x=turned(profile.x), point_masses=tuple(
+            replace(p, position=-p.position) for p in profile.point_masses),
+            **{name: back(getattr(profile, name)) for name in columns})  # fmt: skip
+    elements = body.elements and replace(body.elements, interfaces=turned(body.elements.interfaces))
+    body = replace(
+        body,
+        mass_centre=-body.mass_centre,
+        joint_stiffness=back(body.joint_stiffness),
+        joint_damping=back(body.joint_damping),
+        profile=profile,
+        cuts=turned(body.cuts),
+        elements=elements,
+        segments=tuple(replace(s, mass_centre=-s.mass_centre) for s in reversed(body.segments)),
     )
-
-
-def _with(record, **changes):
-    values = {name: getattr(record, name) for name in record.__dataclass_fields__}
-    return type(record)(**values | changes)
+    return replace(
+        vehicle,
+        body=body,
+        bogies=[replace(b, position=-b.position, wheelsets=turned(b.wheelsets))
+                for b in reversed(vehicle.bogies)],
+        payload=[load if load.front is None else replace(load, front=-load.rear, rear=-load.front)
+                 for load in vehicle.payload],
+        equipment=[replace(one, position=-one.position) for one in vehicle.equipment],
+    )  # fmt: skip
 
 
 @dataclass
