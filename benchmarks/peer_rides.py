@@ -4,48 +4,93 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-from coach import LENGTH, RATE, SEGMENTS, SPEED, elevations_and_rates
+from coach import LENGTH, RATE, SEGMENTS, SPEED, coach, elevations_and_rates
 from entry import at_least, at_most, entry
 from measure import ROOT, Case, answer, median, timed, worker
 
 FINER = 4
 """Exudyn's steps in one sample."""
+TOLERANCES = (1e-6, 1e-9)
+"""Of rumoca's explicit solver, the absolute ones 1e-4 of them: off by less than 1e-3 and 1e-6.
+
+Its BDF solver is less close at the same tolerance, in the same time.
+"""
 
 
 def ride_modelica(step: Callable[[], None]) -> dict[str, Any]:
     """The exported Modelica model over the same samples, by rumoca's solver, compiled before."""
-    found = worker(str(ROOT / "benchmarks" / "modelica_workers.py"), "ride")
+    found = worker(__file__, "rumoca")
     step()
-    loose, tight = (key for key in found if isinstance(found[key], dict))
-    own = median(found["own"])
-    prepare = median(found[loose]["prepare"])
-    peer = median(found[loose]["peer"]) - prepare
+    own, prepare = median(found["own"]), median(found["prepare"])
+    (loose, runs), (tight, tight_runs) = found["peer"].items()
+    peer = median(runs) - prepare
     return entry(
         "ride-rumoca",
         own,
         peer,
-        rounds=len(found[loose]["peer"]),
+        rounds=len(runs),
         railride="railride.simulate, wall time",
-        peer="rumoca's BDF solver on the exported model, the same samples as tables, relative "
+        peer="rumoca's explicit solver on the exported model, the same samples as tables, relative "
         f"tolerance {loose}; wall time less that of its first step, compiled before",
         samples=found["samples"],
         compile_s=found["compile"],
         prepare_s=prepare,
-        difference=found[loose]["difference"],
-        tight_s=median(found[tight]["peer"]) - median(found[tight]["prepare"]),
+        difference=found["difference"][loose],
+        tight_s=median(tight_runs) - prepare,
         tight_tolerance=float(tight),
-        tight_difference=found[tight]["difference"],
+        tight_difference=found["difference"][tight],
         targets=[
             at_least("times faster", peer / own, 10),
             at_most(
                 "largest difference / largest value, tightly solved",
-                found[tight]["difference"],
+                found["difference"][tight],
                 1e-6,
             ),
         ],
     )
+
+
+def time_rumoca(rounds: int = 2, length: float = LENGTH) -> dict[str, Any]:
+    """What rumoca takes to compile, to prepare a run and for all of a run, and how far it is off.
+
+    It prepares the model anew for every run, so that the integration is the rest of it.
+    """
+    sys.path.insert(0, str(ROOT / "tests"))
+    import numpy as np
+    from rumoca_peer import compiled, driven, simulated
+
+    from railride.exports.as_modelica import written
+    from railride.exports.content import content_of
+    from railride.frequency import wheelset_delays
+    from railride.response import simulate
+
+    model, dt = coach(), 1 / RATE
+    content = content_of(model, "floor_acceleration")
+    t = np.arange(round(length / SPEED * RATE) + 1) * dt
+    u = elevations_and_rates(t, wheelset_delays(model, SPEED))
+    names = [s.name for s in (*content.elevations, *content.rates)]
+    samples = dict(zip(names, u, strict=True))
+    text = driven(written(content), samples, dt, [f.name for f in content.forces])
+    compile_time, peer = timed(lambda: compiled(text, f"{content.name}.Driven"))
+    s, track = content.system, slice(0, len(u))
+    simulate(s.A, s.B[:, track], s.C, s.D[:, track], u[:, :2], dt)  # scipy is loaded
+    own, prepare = [], []
+    found: dict[str, Any] = {"samples": len(t), "compile": compile_time, "own": own}
+    found |= {"prepare": prepare, "peer": {f"{r:g}": [] for r in TOLERANCES}, "difference": {}}
+    for _ in range(rounds):
+        seconds, y = timed(lambda: simulate(s.A, s.B[:, track], s.C, s.D[:, track], u, dt))
+        own.append(seconds)
+        prepare.append(timed(lambda: simulated(peer, dt, dt, solver="rk-like"))[0])
+        for rtol in TOLERANCES:
+            how = {"solver": "rk-like", "rtol": rtol, "atol": 1e-4 * rtol}
+            seconds, (_, run) = timed(partial(simulated, peer, t[-1], dt, **how))
+            found["peer"][f"{rtol:g}"].append(seconds)
+            off = apart(run["coach.floor_acceleration"], y.outputs[0])
+            found["difference"][f"{rtol:g}"] = off
+    return found
 
 
 def ride_exudyn(step: Callable[[], None]) -> dict[str, Any]:
@@ -116,7 +161,7 @@ CASES: dict[str, Case] = {
     "ride-rumoca": (ride_modelica, 1),
     "ride-exudyn": (ride_exudyn, 1),
 }
-WORKERS = {"exudyn": time_exudyn}
+WORKERS = {"exudyn": time_exudyn, "rumoca": time_rumoca}
 
 if __name__ == "__main__":
     answer(WORKERS)
