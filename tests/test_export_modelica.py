@@ -97,9 +97,9 @@ def test_the_page_of_the_manual_shows_the_package():
     assert [line for line in shown.splitlines() if line.strip() not in lines] == []
 
 
-def test_every_line_fits():
-    text = written(content("segments"))
-    assert max(len(line) for line in text.splitlines()) <= 120
+def test_every_line_fits(line):
+    text = written(content("segments"), ride_setup(content("segments"), line, 40.0, length=10.0))
+    assert max(len(line) for line in text.splitlines()) <= 100
 
 
 @pytest.fixture(scope="module")

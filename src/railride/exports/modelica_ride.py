@@ -51,24 +51,22 @@ end SecondOrder;
 
 def _weighting(setup: Setup) -> list[str]:
     weight = setup.weighting
-    factors = [
-        (f"SecondOrder factor_{k}(b = {_three(b)}, a = {_three(a)});", f"factor_{k}")
-        for k, (b, a) in enumerate(weight.factors()[1:], start=1)
-    ]
-    names = [name for _, name in factors]
+    factors = {f"factor_{k}": f for k, f in enumerate(weight.factors()[1:], start=1)}
+    names = list(factors)
     chain = itertools.pairwise(names)
     return [
         "",
         f"block Weighting {modelica.quoted(f'{weight.name}, {weight.standard}')}",
         '  RealInput a(unit = "m/s2");',
         '  RealOutput a_w(unit = "m/s2");',
-        *(f"  {declared}" for declared, _ in factors),
+        *(line for name, (b, a) in factors.items() for line in (
+            f"  SecondOrder {name}(", f"    b = {_three(b)},", f"    a = {_three(a)});")),
         "equation",
         f"  {names[0]}.u = {number(weight.gain)}*a;",
         *(f"  connect({one}.y, {other}.u);" for one, other in chain),
         f"  a_w = {names[-1]}.y;",
         "end Weighting;",
-    ]
+    ]  # fmt: skip
 
 
 def _three(coefficients: tuple[float, ...]) -> str:
@@ -122,7 +120,8 @@ def _placed(content: Content, setup: Setup) -> list[str]:
         held = all(s.name in known for s in own)
         text = modelica.printed(apart.xreplace(own)) if held else number(metres)
         behind.append(f"behind_{j} = {text}")
-    return [f"  Track track(V = V, {', '.join(behind)});"]
+    return ["  Track track(", *(f"    {value}," for value in ("V = V", *behind[:-1])),
+            f"    {behind[-1]});"]  # fmt: skip
 
 
 def _standing(content: Content, setup: Setup) -> list[str]:
