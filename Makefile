@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP_INSTALL := install --quiet --disable-pip-version-check --constraint constraints.txt
 
-.PHONY: help ride test lint format docs derivations bench clean
+.PHONY: help ride test lint format docs derivations bench fuzz clean
 .DEFAULT_GOAL := help
 
 help: ## List what there is to make
@@ -47,6 +47,12 @@ derivations: $(VENV)/test.stamp ## Make the pinned derivations again
 
 bench: $(VENV)/test.stamp ## Measure against peers; writes benchmarks/results.json
 	$(BIN)/python benchmarks/run.py
+
+FUZZ := OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/damaged_files.py
+
+fuzz: $(VENV)/test.stamp ## Ten thousand damaged files to the commands, 300 of them as processes too
+	$(FUZZ) --count 10000
+	$(FUZZ) --count 10000 --processes 300
 
 clean: ## Remove the environment, caches and outputs
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis ride-plots build dist

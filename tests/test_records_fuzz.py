@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
+from damage import WORDS, damage_bytes
 from scipy.io import savemat, wavfile
 
 from railride.errors import InputError
@@ -29,12 +30,6 @@ def fuzz_text(n=260):
     return "time [s],z [m/s²],y [m/s²],x [m/s²]\n" + "".join(
         f"{a:.3f},{b:.6f},{c:.6f},{d:.6f}\n" for a, b, c, d in rows
     )
-
-
-WORDS = ["", "NaN", "nan", "NA", "inf", "-inf", "Infinity", "abc", "inv", "1e999", "-1e308", "1,5",
-         "1_000", "0x1F", "--1", "1e", "٣", "#REF!", "TRUE", "12:00", '"', "'", "1 2", "\x00", "\r",
-         "9" * 400, "1e-400", "2024-01-01", "é", "\ufeff", "😀", "None", "-",
-         "+", ".", "e5"]  # fmt: skip
 
 
 def damage_cell(rng, lines):
@@ -61,22 +56,6 @@ def damage_row(rng, lines):
         lines[row] = lines[row].replace(".", ",")
     elif row + 1 < len(lines):
         lines[row], lines[row + 1] = lines[row + 1], lines[row]
-
-
-def damage_bytes(rng, data):
-    data = bytearray(data)
-    for _ in range(rng.choice((1, 1, 1, 3, 20))):
-        place = rng.randrange(len(data))
-        kind = rng.randrange(4)
-        if kind == 0:
-            data[place] ^= 1 << rng.randrange(8)
-        elif kind == 1:
-            del data[place]
-        elif kind == 2:
-            data.insert(place, rng.randrange(256))
-        else:
-            data[place : place + 8] = bytes(rng.randrange(256) for _ in range(8))
-    return bytes(data)
 
 
 def damage_layout(rng, text):
