@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP_INSTALL := install --quiet --disable-pip-version-check --constraint constraints.txt
 
-.PHONY: help ride test lint format docs derivations bench fuzz clean
+.PHONY: help ride test lint format docs derivations bench guard fuzz clean
 .DEFAULT_GOAL := help
 
 help: ## List what there is to make
@@ -53,6 +53,9 @@ FUZZ := OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/damaged_files.py
 fuzz: $(VENV)/test.stamp ## Ten thousand damaged files to the commands, 300 of them as processes too
 	$(FUZZ) --count 10000
 	$(FUZZ) --count 10000 --processes 300
+
+guard: $(VENV)/test.stamp ## Count instructions under valgrind, against those kept
+	$(BIN)/python benchmarks/guard.py
 
 clean: ## Remove the environment, caches and outputs
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis ride-plots build dist

@@ -3,38 +3,41 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from entry import at_least, at_most, entry
 from measure import Case, answer, interleaved, median, run, timed, worker
 
-SEGMENTS = 8
+SEGMENTS = (1, 2, 4, 8)
 ROUNDS, PROCESS_ROUNDS = 2, 7
 DERIVE = ("-m", "railride.derive", "--segments")
 
 
-def derive_linearise(step: Callable[[], None]) -> dict[str, Any]:
-    """Energies to linear matrices at N = 8, each run in a fresh process, imports not counted.
+def derive_linearise(segments: int, step: Callable[[], None]) -> dict[str, Any]:
+    """Energies to linear matrices, each run in a fresh process, imports not counted.
 
-    The peer takes about a minute, so it is run twice only.
+    The peer takes about a minute for eight segments, so it is run twice only.
     """
-    sides = (lambda: worker(__file__, "derive-railride"), lambda: worker(__file__, "derive-sympy"))
+    sides = [partial(worker, __file__, f"{who}-{segments}") for who in ("railride", "sympy")]
     own_runs, peer_runs = interleaved(sides, ROUNDS, step)
     own = median([r["seconds"] for r in own_runs])
     peer = median([r["seconds"] for r in peer_runs])
     difference = max(r["difference"] for r in peer_runs)
+    targets = [at_most("largest difference / largest value, M C K K_w", difference, 1e-9)]
+    if segments == SEGMENTS[-1]:
+        targets.insert(0, at_least("times faster", peer / own, 100))
     return entry(
-        "derive-linearise",
+        f"derive-linearise-{segments}",
         own,
         peer,
         rounds=ROUNDS,
-        railride="derive_vehicle(cati2024, segments=8).linear from scratch, wall time",
+        railride=f"derive_vehicle(cati2024, segments={segments}).linear from scratch, wall time",
         peer="sympy LagrangesMethod, form_lagranges_equations, linearize; same energies, written "
         "out, without the rates of the inputs, which it refuses; wall time",
-        targets=[
-            at_least("times faster", peer / own, 100),
-            at_most("largest difference / largest value, M C K K_w", difference, 1e-9),
-        ],
+        peak_memory_mb=max(r["peak"] for r in own_runs) / 1e6,
+        peer_peak_memory_mb=max(r["peak"] for r in peer_runs) / 1e6,
+        targets=targets,
     )
 
 
@@ -55,17 +58,17 @@ def derive_process(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
-def derive_railride() -> dict[str, Any]:
+def derive_railride(segments: int) -> dict[str, Any]:
     """From the parameters of the vehicle to its linear matrices in symbols."""
     from railride.parameters import load_vehicle
     from railride.vehicle import derive_vehicle
 
     vehicle = load_vehicle("cati2024")
-    seconds, _ = timed(lambda: derive_vehicle(vehicle, segments=SEGMENTS).linear)
+    seconds, _ = timed(lambda: derive_vehicle(vehicle, segments=segments).linear)
     return {"seconds": seconds}
 
 
-def derive_sympy() -> dict[str, Any]:
+def derive_sympy(segments: int) -> dict[str, Any]:
     """sympy's LagrangesMethod with linearize on the same energies; the matrices compared after.
 
     It refuses rates of inputs, so the dissipation function is that of a track at rest (w' = 0),
@@ -76,7 +79,7 @@ def derive_sympy() -> dict[str, Any]:
     from railride.parameters import load_vehicle
     from railride.vehicle import derive_vehicle
 
-    model = derive_vehicle(load_vehicle("cati2024"), segments=SEGMENTS)
+    model = derive_vehicle(load_vehicle("cati2024"), segments=segments)
     system = model.lagrangian.written_out
     function = {s: dynamicsymbols(s.name) for s in (*system.coordinates, *system.inputs)}
     table: dict[Any, Any] = dict(function)
@@ -129,10 +132,14 @@ def _largest_difference(model: Any, linear: Any) -> float:
 
 
 CASES: dict[str, Case] = {
-    "derive-linearise": (derive_linearise, ROUNDS),
+    **{f"derive-linearise-{n}": (partial(derive_linearise, n), ROUNDS) for n in SEGMENTS},
     "derive-process": (derive_process, PROCESS_ROUNDS),
 }
-WORKERS = {"derive-railride": derive_railride, "derive-sympy": derive_sympy}
+WORKERS = {
+    f"{who}-{n}": partial(derive, n)
+    for n in SEGMENTS
+    for who, derive in (("railride", derive_railride), ("sympy", derive_sympy))
+}
 
 if __name__ == "__main__":
     answer(WORKERS)

@@ -53,7 +53,7 @@ def ride_modelica(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
-def time_rumoca(rounds: int = 2, length: float = LENGTH) -> dict[str, Any]:
+def time_rumoca(rounds: int = 1, length: float = LENGTH) -> dict[str, Any]:
     """What rumoca takes to compile, to prepare a run and for all of a run, and how far it is off.
 
     It prepares the model anew for every run, so that the integration is the rest of it.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from coach import (
@@ -18,25 +19,28 @@ from coach import (
 from entry import at_least, at_most, entry
 from measure import Case, answer, median, timed, worker
 
+PEERS = {"control": "control.forced_response", "scipy": "scipy.signal.lsim"}
 MANY = 1000
 """Vehicles at once."""
 
 
-def ride(step: Callable[[], None]) -> dict[str, Any]:
+def ride(name: str, what: str, step: Callable[[], None]) -> dict[str, Any]:
     """Time simulation of 1 km at 1 kHz, N = 4, both sides alternating in one process."""
-    found = worker(__file__, "ride")
+    found = worker(__file__, f"ride-{name}")
     step()
     own, peer = median(found["own"]), median(found["peer"])
     return entry(
-        "ride",
+        f"ride-{name}",
         own,
         peer,
         rounds=len(found["own"]),
-        railride="railride.response.simulate, wall time",
-        peer="control.forced_response on the same matrices and input, wall time",
+        railride="railride.simulate, wall time",
+        peer=f"{what} on the same matrices and input, wall time",
         samples=found["samples"],
         states=found["states"],
         inputs=found["inputs"],
+        difference=found["difference"],
+        peak_memory_mb=found["peak"] / 1e6,
         targets=[
             at_least("times faster", peer / own, 15),
             at_most("largest difference / largest value", found["difference"], 1e-9),
@@ -71,10 +75,11 @@ def a_wrms(step: Callable[[], None]) -> dict[str, Any]:
     )
 
 
-def time_ride(rounds: int = 15) -> dict[str, Any]:
-    """`railride.response.simulate` and `control.forced_response`, same matrices, same input."""
+def time_ride(name: str, rounds: int = 15) -> dict[str, Any]:
+    """`railride.simulate` and the peer: same matrices, same input."""
     import control
     import numpy as np
+    import scipy.signal
 
     from railride.response import simulate
 
@@ -83,12 +88,14 @@ def time_ride(rounds: int = 15) -> dict[str, Any]:
     t = np.arange(samples) / RATE
     u = elevations_and_rates(t, delays)
     system = control.ss(A, B, C, D)
+    peers: dict[str, Callable[[], Any]] = {
+        "control": lambda: control.forced_response(system, t, u, squeeze=False).outputs[0],
+        "scipy": lambda: scipy.signal.lsim((A, B, C, D), u.T, t)[1],
+    }
     own_times, peer_times, largest = [], [], 0.0
     for _ in range(rounds):
-        own_time, own = timed(lambda: simulate(A, B, C, D, u, 1 / RATE).outputs)
-        peer_time, peer = timed(
-            lambda: control.forced_response(system, t, u, squeeze=False).outputs
-        )
+        own_time, own = timed(lambda: simulate(A, B, C, D, u, 1 / RATE).outputs[0])
+        peer_time, peer = timed(peers[name])
         own_times.append(own_time)
         peer_times.append(peer_time)
         largest = max(largest, float(np.abs(own - peer).max() / np.abs(peer).max()))
@@ -164,11 +171,11 @@ def time_a_wrms(rounds: int = 9) -> dict[str, Any]:
 
 
 CASES: dict[str, Case] = {
-    "ride": (ride, 1),
+    **{f"ride-{name}": (partial(ride, name, what), 1) for name, what in PEERS.items()},
     "a_wrms": (a_wrms, 1),
 }
 WORKERS = {
-    "ride": time_ride,
+    **{f"ride-{name}": partial(time_ride, name) for name in PEERS},
     "a_wrms": time_a_wrms,
 }
 

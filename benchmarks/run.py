@@ -1,8 +1,9 @@
 """Measure railride against its peers: ``python benchmarks/run.py [CASE ...]``.
 
-Prints a table and writes ``results.json`` beside this file; cases that are not run keep what was
-last measured of them. Progress goes to standard error. The exit code is 1 if a case could not be
-measured; a target that is missed is shown and is no failure of the measurement.
+Prints a table and writes ``results.json`` beside this file, and from it the README's table and its
+picture; cases that are not run keep what was last measured of them. Progress goes to standard
+error. The exit code is 1 if a case could not be measured; a target that is missed is shown and is
+no failure of the measurement.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import report
 from cases import CASES
 from measure import MeasurementError, machine
 from rich.console import Console
@@ -39,6 +41,8 @@ def main(arguments: list[str] | None = None) -> int:
     results = earlier(options.output) | measured
     ordered = [results[name] for name in CASES if name in results]
     write(options.output, ordered)
+    if options.output == RESULTS:
+        report.main()
     width = None if sys.stdout.isatty() else 140
     Console(width=width).print(table([measured[name] for name in names if name in measured]))
     return 0 if len(measured) == len(names) else 1
