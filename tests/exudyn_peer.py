@@ -2,16 +2,19 @@
 
 Nothing is shared with railride but the parameters' values. Planar rigid bodies at one height:
 
-- the car body's segments, hinged to one another, a torsional spring-damper at every hinge; the
-  body's middle is held along the track, whether it is a hinge or the middle of a segment;
-- the bogies, held along the track;
+- the car body's segments, hinged to one another, a torsional spring-damper at every hinge, linear
+  in the angle between them; the body's middle is held along the track, whether it is a hinge or the
+  middle of a segment. A segment that turns is shorter along the track, by cos φ, and moves those
+  beyond it;
+- the bogies, held along the track by their mass centres;
 - springs and dampers that act vertically between the points of the bodies to which they are
-  fixed, however these turn; the primary ones stand on the ground, and the track's elevation comes
-  as the force k w + c ẇ, which is the same.
+  fixed, however these turn and wherever they come to lie along the track: a lever is l cos φ. The
+  primary ones stand on the ground, and the track's elevation comes as the force k w + c ẇ, which is
+  the same.
 
-All is counted from static equilibrium, as if preloads carried the weight. Exudyn keeps every
-body's coordinates (x, y, φ) and holds the joints by constraints; it integrates by its generalised-α
-method.
+All is counted from static equilibrium, without weight or preloads: what their moments do in the
+second order is in neither program. Exudyn keeps every body's coordinates (x, y, φ) and holds the
+joints by constraints; it integrates by its generalised-α method, of second order in the step.
 
 Source: J. Gerstmayr, Exudyn - a C++-based Python package for flexible multibody systems, Multibody
 System Dynamics 60 (2024), 533-561.
@@ -26,6 +29,7 @@ import exudyn as exu
 import exudyn.solver
 import numpy as np
 from exudyn import itemInterface as items  # noqa: N813
+from vehicles import density
 
 
 @dataclass(frozen=True)
@@ -58,31 +62,48 @@ def whole(body):
     return [Segment(-half, half, body.mass, body.mass_centre, body.pitch_inertia)]
 
 
-def graded(body, count, density):
-    """The car body as ``count`` parts of equal length, ``density(x)`` a polynomial in kg/m."""
+def graded(body, count):
+    """The car body as ``count`` parts of equal length, its mass per length a parabola."""
+    mu = density(body)
     points, weights = np.polynomial.legendre.leggauss(8)
     ends = body.length / 2 - body.length / count * np.arange(count + 1)
     parts = []
     for front, rear in itertools.pairwise(ends):
         x = (front + rear) / 2 + points * (front - rear) / 2
-        dm = density(x) * weights * (front - rear) / 2
+        dm = mu(x) * weights * (front - rear) / 2
         centre = dm @ x / dm.sum()
         parts.append(Segment(rear, front, dm.sum(), centre, dm @ (x - centre) ** 2))
     return parts
 
 
-def coach_of(model, density=None, track=None):
-    """The vehicle of a railride model of segments in Exudyn, its hinges those of the model.
+def coach_of(model, track=None):
+    """The vehicle of a railride model, rigid or of equal segments, in Exudyn.
 
-    density : of a car body whose mass is graded, kg/m at x. track : as for :class:`Coach`.
+    The hinges are those of the model, calibrated as it says. track : as for :class:`Coach`.
     """
     body, count, values = model.vehicle.body, model.body.segments, model.values()
-    joints = [float(values.get(name, 0.0)) for name in ("k_theta", "c_theta")]
     if count == 1:
-        parts = whole(body)
-    else:
-        parts = graded(body, count, density) if density else equal_rods(body, count)
+        return Coach(model.vehicle, whole(body), track=track)
+    parts = {"rods": equal_rods, "graded": graded}[model.body.inertia](body, count)
+    joints = float(values["k_theta"]), float(values["c_theta"])
     return Coach(model.vehicle, parts, joints, track)
+
+
+def at_steps(under, step):
+    """A track for :class:`Coach` that is known at the steps alone, where its integrator asks.
+
+    under : elevations, then rates, of all wheelsets, (2 · wheelsets, samples). step : s, as run.
+    """
+    w, dw = np.split(np.asarray(under), 2)
+    known = np.stack([w, dw], axis=-1).tolist()
+
+    def track(j, t):
+        k = round(t / step)
+        if abs(k - t / step) > 1e-6:
+            raise ValueError(f"track: found {t} s asked for; expected whole steps of {step} s")
+        return known[j][k]
+
+    return track
 
 
 class Coach:

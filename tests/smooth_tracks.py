@@ -20,6 +20,12 @@ class Waves:
     behind: tuple[float, ...]
     scale: float = 1.0
 
+    @classmethod
+    def under(cls, model, speed, scale=1.0):
+        """The track as it passes under the wheelsets of a model."""
+        places = model.wheelset_places()
+        return cls(speed, tuple((places.max() - places).tolist()), scale)
+
     @cached_property
     def _waves(self):
         """Heights (m), frequencies (rad/s) and phases."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exudyn_peer import coach_of
+from exudyn_peer import at_steps, coach_of
 from smooth_tracks import Waves
 from vehicles import paper_coach, random_model
 
@@ -23,8 +23,7 @@ def outputs(model):
 
 
 def waves(model, scale):
-    places = model.wheelset_places()
-    return Waves(SPEED, tuple((places.max() - places).tolist()), scale)
+    return Waves.under(model, SPEED, scale)
 
 
 def nonlinear(model, track, **given):
@@ -40,6 +39,11 @@ def linear(model, track):
     u = track.under_all(step * np.arange((TIMES.size - 1) * FINER + 1))
     found = simulate(s.A, s.B[:, : len(u)], s.C, s.D[:, : len(u)], u, step)
     return found.outputs[:, ::FINER]
+
+
+def exudyn(model, track, step):
+    u = track.under_all(step * np.arange(round(STOP / step) + 1))
+    return coach_of(model, at_steps(u, step)).run(STOP, step, (0.0, 5.0))[1]
 
 
 def apart(one, other):
@@ -70,17 +74,15 @@ def test_a_small_track_is_linear(kind):
     assert apart(nonlinear(model, track), linear(model, track)) < 1e-5
 
 
-@pytest.mark.parametrize("segments", [2, 3])
-def test_two_nonlinear_programs_agree_where_the_linear_one_fails(segments):
+@pytest.mark.parametrize("model", [paper_coach(2), random_model(2, 3)],
+                         ids=["paper's", "unlike"])  # fmt: skip
+def test_two_nonlinear_programs_agree_where_the_linear_one_fails(model):
     """Tracks of 6 and 600 mm r.m.s.; Exudyn's runs of two steps extrapolated to none."""
-    model = paper_coach(segments)
     of_the_linear = []
     for scale in (1, 100):
         track = waves(model, scale)
         found = nonlinear(model, track)
-        coarse, fine = (
-            coach_of(model, track=track).run(STOP, step, (0.0, 5.0))[1] for step in (STEP, STEP / 2)
-        )
+        coarse, fine = (exudyn(model, track, step) for step in (STEP, STEP / 2))
         assert apart((4 * fine[:, ::2] - coarse) / 3, found) < 5e-5
         of_the_linear.append(apart(linear(model, track), found))
     assert of_the_linear[0] < 1e-5
