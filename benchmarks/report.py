@@ -51,8 +51,7 @@ ROWS: dict[str, tuple[str, str, Callable[[Entry], str]]] = {
     "ride-rumoca": (
         "the same",
         "the exported Modelica model in rumoca, compiled before",
-        lambda e: f"{_faster(e)}, {e['difference']:.0e} apart; {e['tight_difference']:.0e} "
-        f"where the peer takes {_seconds(e['tight_s'])}",
+        lambda e: f"{_faster(e)}; its error {e['error']:.0e}, railride's {e['own_error']:.0e}",
     ),
     "ride-exudyn": (
         "the same",

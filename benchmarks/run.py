@@ -58,7 +58,7 @@ def measure(names: list[str], console: Console) -> dict[str, dict[str, Any]]:
             task = progress.add_task(name, total=steps)
             try:
                 measured[name] = case(partial(progress.advance, task)) | {"machine": where}
-            except MeasurementError as error:
+            except (MeasurementError, ArithmeticError, LookupError, ValueError) as error:
                 console.print(f"{name}: not measured: {error}", markup=False, style="red")
     return measured
 

@@ -27,7 +27,7 @@ class Waves:
         return cls(speed, tuple((places.max() - places).tolist()), scale)
 
     @cached_property
-    def _waves(self):
+    def waves(self):
         """Heights (m), frequencies (rad/s) and phases."""
         length = np.geomspace(2.5, 60.0, 40)
         height = self.scale * 0.4e-3 * length / np.sqrt(length.size)
@@ -36,7 +36,7 @@ class Waves:
 
     def __call__(self, j, t):
         """Elevation (m) and its rate (m/s) under wheelset j, from 0, at times t (s)."""
-        height, turn, phase = self._waves
+        height, turn, phase = self.waves
         own = np.asarray(t, dtype=float) - self.behind[j] / self.speed
         angle = np.multiply.outer(own, turn) + phase
         level, rate = np.sin(angle) @ height, np.cos(angle) @ (height * turn)
