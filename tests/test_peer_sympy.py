@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -9,55 +11,76 @@ from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame, dyna
 from vehicles import paper_coach, random_model
 
 MODELS = {
-    "1": lambda: paper_coach(1),
-    "2": lambda: paper_coach(2),
-    "unlike, 2": lambda: random_model(3, 2),
+    "rigid": lambda: paper_coach(1),
+    "segments": lambda: paper_coach(2),
+    "unlike": lambda: random_model(1, 2),
 }
 
 
 class Peer:
-    """The same energies, written for LagrangesMethod: functions of time and their derivatives.
+    """The same energies, parameters put in, as functions of time and their derivatives.
 
-    Dampers are forces, -∂D/∂q̇, on points that move as the coordinates do. Its ``linearize``
-    refuses rates of inputs, for which the track is at rest.
+    ``LagrangesMethod`` knows no dissipation: dampers, like actuators, are forces on points that
+    move as the coordinates do. Its ``linearize`` refuses derivatives of inputs: ẇ is an input of
+    its own, which nothing differentiates in time.
     """
 
-    def __init__(self, model, *, moving):
+    def __init__(self, model):
         system = model.lagrangian.written_out
-        signals = (*system.coordinates, *system.inputs)
-        of_time = {s: dynamicsymbols(s.name) for s in signals}
-        self.table = dict(of_time)
-        for s, u in of_time.items():
-            self.table[s.dot] = u.diff() if moving or s in system.coordinates else sp.S.Zero
-        self.q = [of_time[s] for s in system.coordinates]
-        self.back = {u: s for s, u in of_time.items()}
-        self.back |= {u.diff(): s.dot for s, u in of_time.items()}
-        self.back |= {of_time[s].diff().diff(): s.ddot for s in system.coordinates}
+        self.values = {name: sp.Rational(float(u)) for name, u in model.values().items()}
+        inputs = (*system.inputs, *(w.dot for w in system.inputs), *system.forces)
+        self.of_time = {s: dynamicsymbols(s.name) for s in (*system.coordinates, *inputs)}
+        self.of_time |= {s.dot: self.of_time[s].diff() for s in system.coordinates}
+        self.of_time |= {s.ddot: self.of_time[s.dot].diff() for s in system.coordinates}
+        self.q = [self.of_time[s] for s in system.coordinates]
         frame = ReferenceFrame("N")
         forces = []
         for s in system.coordinates:
             point = Point(f"P_{s.name}")
-            point.set_vel(frame, self.table[s.dot] * frame.x)
-            forces.append((point, -system.dissipation.diff(s.dot).xreplace(self.table) * frame.x))
-        lagrangian = (system.kinetic - system.potential).xreplace(self.table)
+            point.set_vel(frame, self.of_time[s.dot] * frame.x)
+            work = sp.Add(*(F * r.diff(s) for F, r in system.virtual_work))
+            forces.append((point, self._put_in(work - system.dissipation.diff(s.dot)) * frame.x))
+        lagrangian = self._put_in(system.kinetic - system.potential)
         self.method = LagrangesMethod(lagrangian, self.q, forcelist=forces, frame=frame)
+        self.found = self.method.form_lagranges_equations()
+
+    def in_numbers(self, expression):
+        """The same with every parameter's value, exactly."""
+        known = {s: self.values[s.name] for s in expression.free_symbols if s.name in self.values}
+        return expression.xreplace(known)
+
+    def _put_in(self, expression):
+        return self.in_numbers(expression).xreplace(self.of_time)
 
     def equations(self):
         """Its equations of motion in the signals of railride."""
-        found = self.method.form_lagranges_equations()
-        derivatives_first = sorted(self.back, key=lambda u: -u.count(sp.Derivative))
-        for u in derivatives_first:
-            found = found.xreplace({u: self.back[u]})
-        return found
+        return self.found.xreplace({u: s for s, u in self.of_time.items()})
+
+    def linear(self):
+        """M, [K, C] and the inputs' columns at rest, by the names of the inputs."""
+        rates = [u.diff() for u in self.q]
+        at_rest = dict.fromkeys([*self.q, *rates, *(u.diff() for u in rates)], 0)
+        mass, state, inputs, order = self.method.linearize(
+            q_ind=self.q, qd_ind=rates, op_point=at_rest
+        )
+        n = len(self.q)
+        M, S, B = (
+            np.array(m[n:, :].subs(dict.fromkeys(order, 0)).tolist(), dtype=float)
+            for m in (mass, state, inputs)
+        )
+        return M[:, n:], -S, dict(zip((u.func.__name__ for u in order), B.T, strict=True))
 
 
-@pytest.mark.parametrize("kind", ["1", "unlike, 2"])
+@cache
+def peer(kind):
+    return Peer(MODELS[kind]())
+
+
+@pytest.mark.parametrize("kind", MODELS)
 def test_nonlinear_equations_are_the_same(kind):
     """At random motions of any size, track and actuators, to 25 digits."""
-    model = MODELS[kind]()
-    rest = dict.fromkeys(model.lagrangian.forces, 0)
-    own = model.lagrangian.equations().xreplace(rest)
-    other = Peer(model, moving=True).equations()
+    own = peer(kind).in_numbers(MODELS[kind]().lagrangian.equations())
+    other = peer(kind).equations()
     rng = np.random.default_rng(5)
     symbols = sorted(own.free_symbols | other.free_symbols, key=lambda s: s.name)
     at = {s: sp.Rational(int(rng.integers(1, 999)), 1000) for s in symbols}
@@ -66,26 +89,15 @@ def test_nonlinear_equations_are_the_same(kind):
         assert abs(here - there) <= sp.Float("1e-25") * (1 + abs(here))
 
 
-@pytest.mark.parametrize("kind", ["1", "2"])
+@pytest.mark.parametrize("kind", ["rigid", "segments"])
 def test_linear_matrices_are_the_same(kind):
-    """Its ``linearize`` at rest: M, C, K and K_w as numbers."""
-    model = MODELS[kind]()
-    peer = Peer(model, moving=False)
-    peer.method.form_lagranges_equations()
-    at_rest = {x: 0 for u in peer.q for x in (u, u.diff(), u.diff().diff())}
-    found = peer.method.linearize(q_ind=peer.q, qd_ind=[u.diff() for u in peer.q],
-                                  op_point=at_rest)  # fmt: skip
-    mass, state, inputs, order = found
-    values = {name: float(value) for name, value in model.values().items()}
-
-    def numbers(matrix):
-        by_name = {s: values[s.name] for s in matrix.free_symbols if s.name in values}
-        still = dict.fromkeys(matrix.atoms(sp.core.function.AppliedUndef), 0)
-        return np.array(matrix.xreplace(by_name).xreplace(still).tolist(), dtype=float)
-
-    own, n = model.matrices(), len(peer.q)
-    A = numbers(state)[n:]
-    columns = [[u.func.__name__ for u in order].index(s.name) for s in model.lagrangian.inputs]
-    for a, b in ((numbers(mass)[n:, n:], own.M), (-A[:, :n], own.K), (-A[:, n:], own.C),
-                 (numbers(inputs)[n:][:, columns], own.K_w)):  # fmt: skip
-        assert np.abs(a - b).max() < 1e-12 * np.abs(b).max()
+    """Its ``linearize`` at rest: M, C, K and the columns of track, its rates and actuators."""
+    model, n = MODELS[kind](), len(peer(kind).q)
+    M, S, inputs = peer(kind).linear()
+    own, system = model.matrices(), model.lagrangian
+    pairs = [(M, own.M), (S[:, :n], own.K), (S[:, n:], own.C)]
+    for signals, columns in ((system.inputs, own.K_w), ([w.dot for w in system.inputs], own.C_w),
+                             (system.forces, own.B_f)):  # fmt: skip
+        pairs.append((np.transpose([inputs[s.name] for s in signals]), columns))
+    for found, expected in pairs:
+        assert np.abs(found - expected).max() < 1e-14 * np.abs(expected).max()
