@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from coach import SPEED
@@ -15,34 +16,35 @@ BAND = (0.05, 80.0)
 """Hz, what a ride is rated over."""
 
 
-def frequency(step: Callable[[], None]) -> dict[str, Any]:
+def frequency(name: str, peer_named: str, bound: float, step: Callable[[], None]) -> dict[str, Any]:
     """Frequency response at 100,000 frequencies, N = 8, one output, four wheelsets with delays."""
-    found = worker(__file__, "frequency")
+    found = worker(__file__, name)
     step()
     own, peer = median(found["own"]), median(found["peer"])
     return entry(
-        "frequency",
+        name,
         own,
         peer,
         rounds=len(found["own"]),
         railride="railride.frequency.track_response, matrices from parameters included, wall time",
-        peer="control.frequency_response (without slycot) on the state space with inputs w, w' of "
-        "the four wheelsets, delays put in after; wall time",
+        peer=f"{peer_named} on the state space with inputs w, w' of the four wheelsets, delays put "
+        "in after; wall time",
         frequencies=found["frequencies"],
         states=found["states"],
         peer_difference=found["peer_difference"],
         targets=[
-            at_least("times faster", peer / own, 20),
+            at_least("times faster", peer / own, bound),
             at_most("largest difference from a direct solve / largest value",
                     found["difference"], 1e-9),
         ],
     )  # fmt: skip
 
 
-def time_frequency(rounds: int = 3) -> dict[str, Any]:
-    """`track_response` and `control.frequency_response` at the same frequencies, same coach."""
+def time_frequency(name: str, rounds: int = 3) -> dict[str, Any]:
+    """`track_response` and the peer at the same frequencies, same coach."""
     import control
     import numpy as np
+    from scipy import signal
 
     from railride.frequency import track_response, wheelset_delays
     from railride.parameters import load_vehicle
@@ -54,10 +56,16 @@ def time_frequency(rounds: int = 3) -> dict[str, Any]:
     delays, s = wheelset_delays(model, SPEED), system_arrays(model, floor)
     track = slice(0, 2 * delays.size)  # the actuators' forces follow, and stay zero
     system = control.ss(s.A, s.B[:, track], s.C, s.D[:, track])
+    single = [(s.A, s.B[:, [i]], s.C, s.D[:, [i]]) for i in range(2 * delays.size)]
     omega = 2 * np.pi * f
 
+    peers: dict[str, Callable[[], Any]] = {
+        "frequency": lambda: control.frequency_response(system, omega, squeeze=False).frdata[0],
+        "frequency-scipy": lambda: np.array([signal.freqresp(one, omega)[1] for one in single]),
+    }
+
     def peer_response() -> Any:
-        each = control.frequency_response(system, omega, squeeze=False).frdata[0]
+        each = peers[name]()
         e = np.exp(-1j * np.outer(delays, omega))
         return (each * np.vstack([e, 1j * omega * e])).sum(axis=0)
 
@@ -94,12 +102,15 @@ def solved_directly(model: Any, outputs: Any, delays: Any, omega: Any) -> Any:
     return found
 
 
+PEERS = {
+    "frequency": ("control.frequency_response, without slycot,", 20.0),
+    "frequency-scipy": ("scipy.signal.freqresp, one input at a time,", 2.0),
+}
+"""Case to its peer, and how many times faster railride is meant to be."""
 CASES: dict[str, Case] = {
-    "frequency": (frequency, 1),
+    name: (partial(frequency, name, *peer), 1) for name, peer in PEERS.items()
 }
-WORKERS = {
-    "frequency": time_frequency,
-}
+WORKERS = {name: partial(time_frequency, name) for name in PEERS}
 
 if __name__ == "__main__":
     answer(WORKERS)

@@ -9,6 +9,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -27,6 +28,10 @@ ONE_THREAD = {
 """What keeps every usual BLAS to one thread, provided it is set before numpy is imported."""
 
 PACKAGES = ("railride", "sympy", "numpy", "scipy", "control", "rumoca", "exudyn")
+
+
+LIMIT = 600.0
+"""s after which a process is ended: one that hangs must not keep the others from being measured."""
 
 
 class MeasurementError(RuntimeError):
@@ -57,7 +62,10 @@ def run(*arguments: str) -> Usage:
         process = subprocess.Popen(
             [sys.executable, *arguments], env=environment, stdout=output, stderr=complaints
         )
+        too_late = threading.Timer(LIMIT, process.kill)
+        too_late.start()
         _, status, used = os.wait4(process.pid, 0)
+        too_late.cancel()
         wall = time.perf_counter() - start
         process.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)

@@ -70,6 +70,11 @@ ROWS: dict[str, tuple[str, str, Callable[[Entry], str]]] = {
         "`control.frequency_response`",
         lambda e: f"{_faster(e)}, within {_found(e, 'largest difference'):.0e} of a direct solve",
     ),
+    "frequency-scipy": (
+        "the same",
+        "`scipy.signal.freqresp`, one input at a time",
+        lambda e: f"{_faster(e)}; the peer {e['peer_difference']:.0e} from it",
+    ),
     "comfort": (
         "an hour of three axes at 1 kHz, all indices",
         "`control.forced_response` for the weighting alone",
@@ -207,6 +212,7 @@ def _bars(ax: Axes, entries: Mapping[str, Entry]) -> None:
         "ride-rumoca": "ride: Modelica (rumoca)",
         "ride-exudyn": "ride: Exudyn",
         "frequency": "100,000 frequencies: python-control",
+        "frequency-scipy": "100,000 frequencies: scipy",
         "comfort": "comfort of an hour: python-control",
         "a_wrms": "exact a_wrms: python-control's ride",
         "designs": "designs: a loop of its rides",

@@ -12,6 +12,8 @@ import argparse
 import json
 import os
 import sys
+import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -37,10 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"found the case {unknown[0]!r}; expected any of {', '.join(CASES)}")
     names = [name for name in CASES if not options.case or name in options.case]
     console = Console(stderr=True)
-    measured = measure(names, console)
-    results = earlier(options.output) | measured
-    ordered = [results[name] for name in CASES if name in results]
-    write(options.output, ordered)
+    measured = measure(names, console, partial(keep, options.output))
     if options.output == RESULTS:
         report.main()
     width = None if sys.stdout.isatty() else 140
@@ -48,18 +47,25 @@ def main(arguments: list[str] | None = None) -> int:
     return 0 if len(measured) == len(names) else 1
 
 
-def measure(names: list[str], console: Console) -> dict[str, dict[str, Any]]:
-    """Each case's entry by its name; one that cannot be measured is told and left out."""
+def measure(
+    names: list[str], console: Console, keep: Callable[[dict[str, Any]], None]
+) -> dict[str, dict[str, Any]]:
+    """Each case's entry by its name, kept at once; what cannot be measured is told and left out."""
     where, measured = machine(), {}
     columns = (TextColumn("{task.description:<18}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console) as progress:
         for name in names:
             case, steps = CASES[name]
             task = progress.add_task(name, total=steps)
+            begun = time.perf_counter()
             try:
                 measured[name] = case(partial(progress.advance, task)) | {"machine": where}
             except (MeasurementError, ArithmeticError, LookupError, ValueError) as error:
                 console.print(f"{name}: not measured: {error}", markup=False, style="red")
+            else:
+                keep(measured[name])
+                took = time.perf_counter() - begun
+                console.print(f"{name}: measured in {took:.0f} s", highlight=False)
     return measured
 
 
@@ -81,6 +87,12 @@ def table(entries: list[dict[str, Any]]) -> Table:
             result.add_row(*head, target["quantity"], bound, f"{target['value']:.3g}", met)
             head = [""] * 4
     return result
+
+
+def keep(path: Path, measured: dict[str, Any]) -> None:
+    """Put an entry among those that the file holds, in the order of the cases."""
+    results = earlier(path) | {measured["name"]: measured}
+    write(path, [results[name] for name in CASES if name in results])
 
 
 def earlier(path: Path) -> dict[str, dict[str, Any]]:
