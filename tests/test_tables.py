@@ -285,6 +285,13 @@ def test_what_is_not_a_file_is_a_fault(tmp_path):
         read_table(str(tmp_path / "a\0b.csv"))
 
 
+def test_a_very_long_name_of_a_file_is_cut(tmp_path):
+    with pytest.raises(InputError, match="File name too long") as caught:
+        read_table(tmp_path / ("9" * 20_000 + "modes.csv"))
+    assert "9modes.csv: " in str(caught.value)
+    assert len(str(caught.value)) < 1000
+
+
 def test_a_very_long_heading_is_cut(read):
     table = read("x," + "_" * 20_000 + "y\n" + "1,2\n" * 5)
     assert table.columns[1].heading == "_" * 200 + "…"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from scipy import stats
 from railride import InputError, derive_vehicle, read_study, stochastic_ride
 from railride.cli import main
 from railride.distributions import METHODS, Distribution
+from railride.files import data_path
 from railride.uncertainties import read_uncertainty, study_uncertainty, uncertainty
 
 COACH = derive_vehicle("cati2024", segments=2)
@@ -203,6 +205,18 @@ def test_the_command_prints_table_json_and_csv(file, capsys, tmp_path):
     assert code == 0
     assert "10 % of designs are below" in out
     assert "Share of the variance" in out
+
+
+def test_a_nominal_design_that_cannot_be_has_a_dash(file, capsys, tmp_path):
+    coach = data_path("vehicles", "cati2024.toml").read_text(encoding="utf-8")
+    heavy = coach.replace("34000 kg", "6.8e34 kg")
+    (tmp_path / "heavy.toml").write_text(heavy, encoding="utf-8")
+    text = STUDY.replace("cati2024", "heavy.toml") + "indices = false\n"
+    text += "[parameters.m_c]\ndistribution = 'uniform'\nfrom = '34 t'\nto = '42 t'\n"
+    code, out, err = run(capsys, file(text))
+    assert code == 0, err
+    assert re.search(r"nominal design +-\n", out)
+    assert "nan" not in out
 
 
 def test_what_the_command_cannot_use_ends_with_2(file, capsys):

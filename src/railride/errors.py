@@ -45,7 +45,8 @@ class Faults:
     """
 
     def __init__(self, source: str) -> None:
-        self.source = source
+        # A name that no file can have may be very long.
+        self.source = source if len(source) <= 500 else f"{source[:240]}…{source[-240:]}"
         self.found: list[Fault] = []
 
     def add(self, where: str, found: object, expected: str, mend: str = "") -> None:

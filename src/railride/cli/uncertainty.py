@@ -142,7 +142,8 @@ def _scatter(one: Summary) -> str:
     """Mean, percentiles and probabilities of classes of one quantity."""
     from railride.units import headed
 
-    rows = [("nominal design", f"{one.nominal:#.4g}", "", ""), _row("mean", one.mean, "#.4g"),
+    nominal = "-" if isnan(one.nominal) else f"{one.nominal:#.4g}"
+    rows = [("nominal design", nominal, "", ""), _row("mean", one.mean, "#.4g"),
             _row("standard deviation", one.deviation, "#.3g")]  # fmt: skip
     rows += [_row(f"{p:g} % of designs are below", at, "#.4g")
              for p, at in one.percentiles.items()]  # fmt: skip
