@@ -154,12 +154,11 @@ def _growth(entries: Mapping[str, Entry]) -> str:
         if (e := entries.get(name)) is None:
             continue
         parts += [f"{GROWTH[work]} as N^{x:.2g}" for work, x in e["exponents"].items()]
-        memory.append(f"{e['peak_memory_mb']['128']:.0f} MB")
+        memory += [f"{peak['128']:.0f} MB" for peak in e["peak_memory_mb"].values()]
     if not parts:
         return ""
     return (f"From 16 to 128 segments the work grows: {', '.join(parts)}; peak memory at 128 "
-            f"segments, of the process that derives and of one that does the rest: "
-            f"{' and '.join(memory)}.")  # fmt: skip
+            f"segments, of a process that does one of these: {', '.join(memory)}.")  # fmt: skip
 
 
 def _article(name: str) -> str:
