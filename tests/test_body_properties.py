@@ -84,7 +84,8 @@ SEGMENTS = (Segment(5.0, 8e3, mass_centre=0.3), Segment(8.0, 11e3), Segment(11.0
 PROFILE = BodyProfile((-12, -7, -7, 12), (3e9, 2e9, 1e9, 3e9), (1500, 1300, 1200, 1600),
                       point_masses=(PointMass(900.0, -3.0, 200.0),))  # fmt: skip
 TIMOSHENKO = {"shear_stiffness": 4e8, "rotary_inertia": 2800.0}
-LOADS = (Load(6000.0), Load(2000.0, 11.0, 3.0), Load(900.0, -4.0, -4.0))
+LOADS = (Load(6000.0), Load(2000.0, 11.0, 3.0), Load(900.0, -4.0, -4.0),
+         Load(700.0, -1e-11, -2e-11))  # fmt: skip
 BODIES = {
     "rigid": lambda: derive_vehicle(coach(), 1),
     "rods": lambda: derive_vehicle(coach(), 4),

@@ -145,7 +145,7 @@ class SegmentedBody(BodyModel):
             u = load.front - cuts.middle(i)
             return _kinetic(i, mass, mass * u, mass * u**2)
         pieces = []
-        for i in range(cuts.segment_at(load.front), cuts.segment_at(load.rear) + 1):
+        for i in range(1, self.number + 1):
             front, rear = min(load.front, nodes[i - 1]), max(load.rear, nodes[i])
             if front <= rear:
                 continue
