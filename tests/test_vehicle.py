@@ -243,6 +243,12 @@ def test_structural_damping_of_the_free_body(segments, zeta):
     np.testing.assert_allclose(found, zeta * f / 9.6, rtol=1e-5)
 
 
+def test_a_very_long_name_is_told_by_its_beginning():
+    with pytest.raises(InputError) as caught:
+        paper_coach(2).matrices(**{"k" * 20_000: 7e5})
+    assert len(str(caught.value)) < 2000
+
+
 def test_unknown_parameters_are_refused_with_those_there_are():
     with pytest.raises(InputError, match=r"'k2'; expected one of .*k_2"):
         paper_coach(2).matrices(k2=7e5)

@@ -16,6 +16,7 @@ from railride.errors import InputError
 from railride.lagrange import Lagrangian, Signal
 from railride.numeric import Array, MatrixFunction
 from railride.running_gear import OPTIONAL, SYMBOLS, RunningGear
+from railride.toml_tables import shown
 
 KEYS = {  # of parameter files that name one symbol without doubt
     "bending_frequency": "f_bending",
@@ -101,7 +102,7 @@ class ParameterValues:
         near = difflib.get_close_matches(str(name), [*symbols, *keys], n=3)
         listed = ", ".join(f"{s} ({meaning})" for s, meaning in sorted(symbols.items()))
         hint = f" (did you mean {' or '.join(near)}?)" if near else ""
-        raise InputError(f"parameters: found {name!r}; expected one of {listed}{hint}")
+        raise InputError(f"parameters: found {shown(name)}; expected one of {listed}{hint}")
 
     @cached_property
     def _definitions(self) -> dict[str, MatrixFunction]:
