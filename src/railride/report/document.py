@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -69,6 +70,22 @@ class Subject:
         own += [s.name for s in (*body.definitions, *body.followers)]
         rest = [] if self.alone else [name for name in every if name not in own]
         return {name: every[name] for name in (*own, *rest) if name in every}
+
+
+@contextmanager
+def repeatable() -> Iterator[None]:
+    """Let sympy factor with the same random numbers each time: unlucky ones can take minutes.
+
+    Its generator goes on as it was.
+    """
+    from sympy.core.random import rng
+
+    state = rng.getstate()
+    rng.seed(0)
+    try:
+        yield
+    finally:
+        rng.setstate(state)
 
 
 def render(blocks: Iterable[Block], form: str) -> str:

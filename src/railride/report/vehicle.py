@@ -9,7 +9,7 @@ from typing import Any
 from railride.markup import Block, Heading, Paragraph
 from railride.parameters import load_vehicle, shipped_vehicles
 from railride.report import dynamics, equilibrium, kinematics, numbers, structure
-from railride.report.document import Subject, for_sympy, render
+from railride.report.document import Subject, for_sympy, render, repeatable
 from railride.resultants import resultants
 from railride.vehicle import VehicleModel
 
@@ -39,6 +39,7 @@ def vehicle_document(
     return render(vehicle_blocks(subject, f"Made by `{command(subject)}`."), form)
 
 
+@repeatable()
 def vehicle_blocks(
     subject: Subject, made: str, behind: Sequence[Block] = (), **more: Any
 ) -> list[Block]:
