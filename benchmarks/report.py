@@ -32,6 +32,10 @@ def _equal(e: Entry) -> str:
     return f"{_faster(e)}, equal to {e['difference']:.0e}"
 
 
+def _errors(e: Entry) -> str:
+    return f"{_faster(e)}; its error {e['error']:.0e}, railride's {e['own_error']:.0e}"
+
+
 def _found(e: Entry, quantity: str) -> float:
     """What a target found, by the beginning of its name."""
     return float(next(t["value"] for t in e["targets"] if t["quantity"].startswith(quantity)))
@@ -51,12 +55,12 @@ ROWS: dict[str, tuple[str, str, Callable[[Entry], str]]] = {
     "ride-rumoca": (
         "the same",
         "the exported Modelica model in rumoca, compiled before",
-        lambda e: f"{_faster(e)}; its error {e['error']:.0e}, railride's {e['own_error']:.0e}",
+        _errors,
     ),
     "ride-exudyn": (
         "the same",
         "Exudyn, nonlinear, steps of 0.25 ms",
-        lambda e: f"{_faster(e)}, {e['difference']:.0e} apart",
+        _errors,
     ),
     "a_wrms": (
         "exact a_wrms, matrices in hand",
