@@ -272,7 +272,7 @@ def test_modulus_margin_is_the_distance_to_instability():
         ({"gain": np.nan}, "gain: found nan N s/m; expected a finite number"),
         ({"gain": "a"}, "gain: found 'a'; expected a finite number .in N s/m"),
         ({"gain": None}, "gain: found None"),
-        ({"gain": 1e5, "bandwidth": "10"}, "bandwidth: found '10'; expected a finite number above"),
+        ({"gain": 1e5, "bandwidth": "10"}, "bandwidth: found '10'; expected a positive number"),
         ({"gain": 1e5, "bandwidth": 0.0}, "bandwidth: found 0.0 Hz"),
         ({"gain": 1e5, "high_pass": -1.0}, "high_pass: found -1.0 Hz"),
         ({"gain": 1e5, "order": 3}, "order: found 3; expected 1 or 2"),
@@ -517,7 +517,7 @@ def three_bogies():
 @pytest.mark.parametrize("name", ["acceleration", "travel", "force", "sensor_noise"])
 def test_lqg_refuses_sizes_that_are_none(name):
     for value in (0.0, np.inf, "much"):
-        with pytest.raises(InputError, match=f"{name}: found {value!r}; expected a finite number"):
+        with pytest.raises(InputError, match=f"{name}: found {value!r}; expected a positive number"):
             lqg(paper_coach(1), V, LOW, **{name: value})
 
 
