@@ -11,9 +11,11 @@ that fails is tried again by its index. Its files are kept, with its command and
 from __future__ import annotations
 
 import argparse
+import random
 import sys
 import time
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,11 +43,11 @@ def main() -> None:
 
     given = _arguments()
     console, counts, slowest, failed = Console(), Counter[tuple[str, Any]](), [], 0
-    indices = range(given.start, given.start + given.count)
+    indices: Sequence[int] = range(given.start, given.start + given.count)
     run = run_here
     if given.processes:
-        run, step = run_process, max(1, given.count // given.processes)
-        indices = range(given.start, given.start + given.count, step)[: given.processes]
+        run, some = run_process, min(given.processes, given.count)
+        indices = sorted(random.Random(given.seed).sample(indices, some))  # noqa: S311
     began = time.perf_counter()
     columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as bar:
@@ -82,7 +84,7 @@ def _arguments() -> argparse.Namespace:
     add("--count", type=int, default=10_000, help="how many files")
     add("--seed", type=int, default=1)
     add("--from", type=int, default=0, dest="start", help="the first index")
-    add("--processes", type=int, default=0, help="so many of them, each as a process of its own")
+    add("--processes", type=int, default=0, help="so many of them at random, each as a process")
     add(
         "--keep", type=Path, default=ROOT / "build" / "damaged", help="the files of those that fail"
     )

@@ -96,11 +96,10 @@ def profiles(draw):
     n = len(knots)
     column = lambda low, high: draw(st.lists(floats(low, high), min_size=n, max_size=n))  # noqa: E731
     shear = column(2e8, 9e8) if draw(booleans()) else None
-    points = tuple(
-        PointMass(mass, place * half, inertia)
-        for mass, place, inertia in draw(
-            st.lists(tuples(floats(100, 1500), floats(-0.95, 0.95), floats(0, 300)), max_size=2)
-        )
+    mass = tuples(floats(100, 1500), integers(-9, 9), floats(0, 300))
+    points = tuple(  # on no hinge, where which of two segments it turns with is a convention
+        PointMass(mass, (place / 10 + 0.037) * half, inertia)
+        for mass, place, inertia in draw(st.lists(mass, max_size=2))
     )
     return BodyProfile([half * x for x in knots], column(1e9, 4e9), column(800, 2000), shear,
                        column(500, 3000) if shear else None, points)  # fmt: skip
