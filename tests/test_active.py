@@ -517,7 +517,8 @@ def three_bogies():
 @pytest.mark.parametrize("name", ["acceleration", "travel", "force", "sensor_noise"])
 def test_lqg_refuses_sizes_that_are_none(name):
     for value in (0.0, np.inf, "much"):
-        with pytest.raises(InputError, match=f"{name}: found {value!r}; expected a positive number"):
+        words = f"{name}: found {value!r}; expected a positive number"
+        with pytest.raises(InputError, match=words):
             lqg(paper_coach(1), V, LOW, **{name: value})
 
 
