@@ -143,7 +143,7 @@ def test_the_ride_at_another_speed_on_other_springs():
     softer = model.changed(k_2=6e5)
     w, slope = line.elevation(setup.start - setup.behind[:, None] + 50.0 * np.arange(count) * dt)
     s, u = content_of(softer, "floor_acceleration").system, np.vstack([w, 50.0 * slope])
-    start = np.concatenate(following(model, u[:4, 0], u[4:, 0]))
+    start = np.concatenate(following(model.matrices(), u[:4, 0], u[4:, 0]))
     own = simulate(s.A, s.B[:, :8], s.C, s.D[:, :8], u, dt, x0=start).outputs[0]
     assert np.abs(found["floor_acceleration"] - own).max() < 1e-5 * np.abs(own).max()
 

@@ -90,7 +90,7 @@ def test_a_ride_is_controls_forced_response(model):
                    rate=1000.0)  # fmt: skip
     w, slope = track.elevation(run.distance - V * wheelset_delays(model, V)[:, np.newaxis])
     chain = control.series(of_the_track(model), wk())
-    start = np.concatenate(following(model, w[:, 0], V * slope[:, 0]))
+    start = np.concatenate(following(model.matrices(), w[:, 0], V * slope[:, 0]))
     a_w = control.forced_response(
         chain, run.time - run.time[0], np.vstack([w, V * slope]), squeeze=False,
         X0=np.concatenate([start, np.zeros(chain.nstates - start.size)]),

@@ -143,10 +143,8 @@ class NonlinearEquations:
         self._values = self._numbers(model)
 
     def _numbers(self, model: VehicleModel) -> dict[str, float]:
-        values = model.values()
         symbols = set().union(*(u.free_symbols for u in self.system.outputs.values()))
-        left = [s for s in symbols if not isinstance(s, Signal) and s.name not in values]
-        values |= model.body.dependent_values(values, left)
+        values = model.values_with(s for s in symbols if not isinstance(s, Signal))
         return {name: float(value) for name, value in values.items()}
 
     @cached_property

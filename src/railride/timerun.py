@@ -18,7 +18,7 @@ from railride.errors import InputError
 from railride.firstorder import first_order
 from railride.frequency import wheelset_delays
 from railride.modal import eigen, refuse_unstable
-from railride.numeric import Array
+from railride.numeric import Array, Matrices
 from railride.response import simulate
 from railride.spectra import spectrum, temporal
 from railride.statespace import System, system_arrays
@@ -96,22 +96,22 @@ def time_run(
     w, slope = track.elevation(distance - speed * delays[:, np.newaxis])
     u = np.vstack([w, speed * slope])
     passive = slice(0, len(u))  # the actuators rest
-    at_rest = following(model, w[:, 0], speed * slope[:, 0])
+    m = model.matrices()
+    at_rest = following(m, w[:, 0], speed * slope[:, 0])
     response = simulate(
         system.A, system.B[:, passive], system.C, system.D[:, passive], u, 1 / rate,
-        x0=first_order(model.matrices()).state(*at_rest),
+        x0=first_order(m).state(*at_rest),
     )  # fmt: skip
     return Run(
         speed, time, distance, w[0], response.outputs, slice(-first, time.size), tuple(remarks)
     )
 
 
-def following(model: VehicleModel, w: Array, dw: Array) -> tuple[Array, Array]:
+def following(m: Matrices, w: Array, dw: Array) -> tuple[Array, Array]:
     r"""Coordinates and rates (n,) of a vehicle that follows the track without inertia or dampers.
 
     .. math:: K q = K_w w, \qquad K \dot q = K_w \dot w
     """
-    m = model.matrices()
     q, dq = np.linalg.solve(m.K, m.K_w @ np.stack([w, dw], axis=-1)).T
     return q, dq
 

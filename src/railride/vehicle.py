@@ -8,7 +8,7 @@ the wheelsets and f the actuator forces, all numbered from the front.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -155,6 +155,15 @@ class VehicleModel:
         named = {self._values.symbol_of(name): value for name, value in changes.items()}
         return self._values.at({**self.overrides, **named})
 
+    def values_with(self, symbols: Iterable[sp.Symbol], **changes: ArrayLike) -> dict[str, Array]:
+        """:meth:`values`, and those of symbols that an output alone needs.
+
+        Shapes of the body's modes at a point of the floor are such.
+        """
+        values = self.values(**changes)
+        left = [symbol for symbol in symbols if symbol.name not in values]
+        return values | self.body.dependent_values(values, left)
+
     def free_body_stiffness(self, **changes: ArrayLike) -> Array:
         """K of the empty car body alone, free in space: shape (..., n, n) in its coordinates."""
         return self.body.free_matrices(self.values(**changes))["K"]
@@ -282,9 +291,8 @@ class VehicleModel:
         if chosen not in self._rows:
             named = {f"{k}: {output.name}": output.expression for k, output in enumerate(chosen)}
             self._rows[chosen] = MatrixFunction(output_rows(self.lagrangian, named))
-        rows, values = self._rows[chosen], self.values(**changes)
-        left = [symbol for symbol in rows.symbols if symbol.name not in values]
-        return rows(values | self.body.dependent_values(values, left))
+        rows = self._rows[chosen]
+        return rows(self.values_with(rows.symbols, **changes))
 
     @cached_property
     def _rows(self) -> dict[tuple[Output, ...], MatrixFunction]:

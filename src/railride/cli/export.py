@@ -109,19 +109,12 @@ def export(
     how = {} if track is None else reading.of(given, track)
     with working("exporting"):
         model = choice.model(given)
-        remarks = [*model.vehicle.remarks, *model.remarks]
-        from railride.exports.content import content_of
-        from railride.exports.write import export_content
+        source = None if track is None else chosen_track(track, extrapolate, how)
+        from railride.exports.write import exported
 
-        content, details = content_of(model, signal, places, floor), {}
-        if track is not None:
-            from railride.exports.setup import ride_setup
-
-            source = chosen_track(track, extrapolate, how)
-            setup = ride_setup(content, source, kmh, length=rated, seed=number)
-            details, remarks = {"setup": setup}, [*remarks, *setup.remarks]
-        written = export_content(content, str(target), **details)
-    output.deliver(written, to, remarks)
+        written, remarks = exported(model, str(target), signal, places, floor, track=source,
+                                    speed=kmh, length=rated, seed=number)  # fmt: skip
+    output.deliver(written, to, [*model.vehicle.remarks, *model.remarks, *remarks])
 
 
 def _check_ride(

@@ -23,7 +23,6 @@ def matrices(content: Content) -> dict[str, Array]:
 def names(content: Content) -> dict[str, list[str]]:
     """Names and units along every axis."""
     s = content.system
-    inputs = (*content.elevations, *content.rates, *content.forces)
     units = {q.name: q.unit for q in content.coordinates}
     return {
         "coordinates": _names(content.coordinates),
@@ -32,8 +31,8 @@ def names(content: Content) -> dict[str, list[str]]:
         "forces": _names(content.forces),
         "states": list(s.states),
         "state_units": [units.get(x) or f"{units[x.removeprefix('d')]}/s" for x in s.states],
-        "inputs": _names(inputs),
-        "input_units": [u.unit for u in inputs],
+        "inputs": _names(content.inputs),
+        "input_units": [u.unit for u in content.inputs],
         "outputs": [output.name for output in content.outputs],
         "output_units": [output.unit for output in content.outputs],
     }

@@ -20,6 +20,7 @@ from railride.markup import (
 _LAW = r"y = Y_a \ddot q + Y_v \dot q + Y_d q + Y_w w + Y_{dw} \dot w + Y_f f"
 
 
+@report.repeatable()
 def written(content: Content) -> str:
     """The article's text."""
     subject = report.Subject(content.model, alone=False, form="latex")
@@ -74,7 +75,7 @@ def _y(i: int) -> str:
 def _names(content: Content) -> list[Block]:
     """What the program calls the signals."""
     linear = content.linear
-    quantities = (*content.coordinates, *content.elevations, *content.rates, *content.forces)
+    quantities = (*content.coordinates, *content.inputs)
     symbols = [*linear.coordinates, *linear.inputs, *(w.dot for w in linear.inputs), *linear.forces]
     rows = [
         (f"${math(symbol)}$", f"`{quantity.name}`", quantity.unit, quantity.meaning)

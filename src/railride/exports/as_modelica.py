@@ -77,7 +77,7 @@ def written(content: Content, setup: Setup | None = None) -> str:
 def _check_names(content: Content) -> None:
     """Refuse outputs with names that the model has for something else; only theirs are free."""
     known = {p.name: "a parameter" for p in content.parameters}
-    known |= {u.name: "an input" for u in (*content.elevations, *content.rates, *content.forces)}
+    known |= {u.name: "an input" for u in content.inputs}
     for q in content.coordinates:
         known |= {q.name: "a coordinate", f"d{q.name}": f"the rate of {q.name}"}
         known |= {f"dd{q.name}": f"the acceleration of {q.name}"}
@@ -183,9 +183,8 @@ def _parameters(content: Content) -> list[str]:
 
 
 def _connectors(content: Content) -> list[str]:
-    inputs = [*content.elevations, *content.rates, *content.forces]
     return [
-        *(declared("RealInput", u) for u in inputs),
+        *(declared("RealInput", u) for u in content.inputs),
         *(declared("RealOutput", y) for y in source.axes(content)["outputs"]),
     ]
 

@@ -119,10 +119,15 @@ class Content:
             for b, f in enumerate(self.linear.forces, start=1)
         )
 
+    @property
+    def inputs(self) -> tuple[Quantity, ...]:
+        """u = (w, ẇ, f)."""
+        return (*self.elevations, *self.rates, *self.forces)
+
     @cached_property
     def parameters(self) -> tuple[ParameterValue, ...]:
         """What the matrices and definitions need, each after those that define it."""
-        values, known, body = self.model.values(), self.model.meanings, self.model.body
+        known, body = self.model.meanings, self.model.body
         defined = {
             s: definition
             for s, definition in {**body.definitions, **self.model.carried.definitions}.items()
@@ -130,8 +135,7 @@ class Content:
         }
         wanted: set[sp.Symbol] = set().union(*(A.free_symbols for A in self.matrices.values()))
         wanted |= set().union(*(_all_symbols(s, defined) for s in wanted))
-        left = [s for s in wanted if s.name not in values]
-        values |= body.dependent_values(values, left)
+        values = self.model.values_with(wanted)
         own = [p.symbol for p in self.model.parameters]
         rest = sorted(wanted - set(own) - set(defined), key=lambda s: (len(s.name), s.name))
         return tuple(

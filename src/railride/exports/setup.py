@@ -83,7 +83,7 @@ def ride_setup(
     start = line.end - length - run_in
     behind = speed * wheelset_delays(model, speed)
     w, slope = line.elevation(start - behind)
-    q, dq = following(model, w, speed * slope)
+    q, dq = following(content.dynamics, w, speed * slope)
     first = max(0, int(np.floor((start - behind.max() - line.distance0) / line.step)))
     return Setup(
         speed, line.name, start, line.distance0 + first * line.step, line.step,

@@ -71,12 +71,30 @@ def export_model(
     ...     numpy.load(file)["M"].shape
     (7, 7)
     """
-    content = content_of(model, outputs, at, floor)
-    details = {}
-    if track is not None:
-        if target != "modelica":
-            raise InputError(f"track: found one for {target!r}; expected none (only 'modelica' "
-                             "holds a ride)")  # fmt: skip
-        details["setup"] = ride_setup(content, track, speed, length=length, seed=seed)
-    found = export_content(content, target, **details)
+    found, _ = exported(
+        model, target, outputs, at, floor, track=track, speed=speed, length=length, seed=seed
+    )
     write_bytes(file, found.encode() if isinstance(found, str) else found)
+
+
+def exported(
+    model: VehicleModel,
+    target: str,
+    outputs: Output | str | Sequence[Output | str] | None,
+    at: Sequence[float],
+    floor: str,
+    *,
+    track: str | Path | Spectrum | Track | None,
+    speed: float,
+    length: float,
+    seed: int,
+) -> tuple[str | bytes, tuple[str, ...]]:
+    """What :func:`export_model` writes, and remarks on the ride in it; arguments as there."""
+    content = content_of(model, outputs, at, floor)
+    if track is None:
+        return export_content(content, target), ()
+    if target != "modelica":
+        raise InputError(f"track: found one for {target!r}; expected none (only 'modelica' "
+                         "holds a ride)")  # fmt: skip
+    setup = ride_setup(content, track, speed, length=length, seed=seed)
+    return export_content(content, target, setup=setup), setup.remarks

@@ -9,7 +9,15 @@ and on to natural frequencies. Every equation and every figure is derived as the
 at its end the same mathematics stands as text that sympy reads back.
 """
 
-from railride.report.document import LAGRANGE, Subject, entries, for_sympy, render, stacked
+from railride.report.document import (
+    LAGRANGE,
+    Subject,
+    entries,
+    for_sympy,
+    render,
+    repeatable,
+    stacked,
+)
 from railride.report.vehicle import command, vehicle_blocks, vehicle_document
 
 __all__ = [
@@ -19,6 +27,7 @@ __all__ = [
     "entries",
     "for_sympy",
     "render",
+    "repeatable",
     "stacked",
     "vehicle_blocks",
     "vehicle_document",
