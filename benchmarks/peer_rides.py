@@ -25,23 +25,44 @@ STEP = 0.25e-3
 
 def ride_modelica(step: Callable[[], None]) -> dict[str, Any]:
     """The exported Modelica model on the same track, by rumoca's solver, compiled before."""
-    found = worker(__file__, "rumoca")
+    return beside(
+        "rumoca",
+        "rumoca's simulate of the exported Coach, the track's 40 waves in a Modelica "
+        f"function, {SOLVER}, output at 1 kHz; wall time, compiled before",
+        least=10,
+        step=step,
+    )
+
+
+def ride_exudyn(step: Callable[[], None]) -> dict[str, Any]:
+    """The same ride in Exudyn, a nonlinear multibody program."""
+    return beside(
+        "exudyn",
+        "Exudyn, planar bodies and joints, generalised-alpha at steps of "
+        f"{1e3 * STEP:g} ms, the track as forces from Python; wall time with assembly",
+        least=15,
+        step=step,
+    )
+
+
+def beside(name: str, what: str, least: float, step: Callable[[], None]) -> dict[str, Any]:
+    """What the worker of that name found of railride and ``what``, ``least`` times as slow."""
+    found = worker(__file__, name)
     step()
     own, peer = median(found["own"]), median(found["peer"])
     return entry(
-        "ride-rumoca",
+        f"ride-{name}",
         own,
         peer,
         rounds=len(found["peer"]),
         railride="railride.simulate, 1 kHz, wall time",
-        peer="rumoca's simulate of the exported Coach, the track's 40 waves in a Modelica "
-        f"function, {SOLVER}, output at 1 kHz; wall time, compiled before",
-        compile_s=found["compile"],
-        prepare_s=found["prepare"],
+        peer=what,
         error=found["error"],
         own_error=found["own_error"],
+        peak_memory_mb=found["peak"] / 1e6,
+        **found["more"],
         targets=[
-            at_least("times faster", peer / own, 10),
+            at_least("times faster", peer / own, least),
             at_most("largest error of the peer / largest value", found["error"], 1e-3),
             at_most("largest error / largest value", found["own_error"], 1e-3),
         ],
@@ -112,7 +133,7 @@ def time_rumoca(rounds: int = 5) -> dict[str, Any]:
     prepare, _ = timed(lambda: simulated(peer, dt, dt, **SOLVER))
     floor = f"coach.{content.outputs[0].name}"
     found = ridden.beside(lambda: simulated(peer, ridden.stop, dt, **SOLVER)[1][floor], rounds)
-    return found | {"compile": compiling, "prepare": prepare}
+    return found | {"more": {"compile_s": compiling, "prepare_s": prepare}}
 
 
 def driven(text: str, content: Any, track: Any) -> str:
@@ -159,51 +180,22 @@ def driven(text: str, content: Any, track: Any) -> str:
     return f"{text.rstrip().removesuffix(end)}{added}{end}\n"
 
 
-def ride_exudyn(step: Callable[[], None]) -> dict[str, Any]:
-    """The same ride in Exudyn, a nonlinear multibody program."""
-    found = worker(__file__, "exudyn")
-    step()
-    own, peer = median(found["own"]), median(found["peer"])
-    return entry(
-        "ride-exudyn",
-        own,
-        peer,
-        rounds=len(found["peer"]),
-        railride="railride.simulate, 1 kHz, wall time",
-        peer="Exudyn, planar bodies and joints, generalised-alpha at steps of "
-        f"{1e3 * STEP:g} ms, the track as forces from Python; wall time with assembly",
-        level_s=found["level"],
-        error=found["error"],
-        own_error=found["own_error"],
-        peak_memory_mb=found["peak"] / 1e6,
-        targets=[
-            at_least("times faster", peer / own, 15),
-            at_most("largest error of the peer / largest value", found["error"], 1e-3),
-            at_most("largest error / largest value", found["own_error"], 1e-3),
-        ],
-    )
-
-
 def time_exudyn(rounds: int = 3) -> dict[str, Any]:
     """`simulate` and Exudyn, whose force elements ask for the track at every step, in Python.
 
     Once more on a level track, for which they ask nothing.
     """
-    from exudyn_peer import coach_of
+    from exudyn_peer import at_steps, coach_of
 
     ridden = Kilometre()
-    both, count = ridden.inputs(STEP).T.tolist(), len(ridden.track.behind)
-
-    def track(j: int, t: float) -> tuple[float, float]:
-        row = both[min(round(t / STEP), len(both) - 1)]
-        return row[j], row[j + count]
+    track = at_steps(ridden.inputs(STEP), STEP)
 
     def run(track: Any) -> Any:
         _, (found,) = coach_of(ridden.model, track).run(ridden.stop, STEP, [0.0])
         return found[:: round(1 / RATE / STEP)]
 
     found = ridden.beside(lambda: run(track), rounds)
-    return found | {"level": timed(lambda: run(None))[0]}
+    return found | {"more": {"level_s": timed(lambda: run(None))[0]}}
 
 
 def apart(one: Any, other: Any) -> float:
