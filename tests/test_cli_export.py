@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from railride.exports.targets import TARGETS
+
 
 def test_a_file_with_the_chosen_outputs(run, tmp_path):
     file = tmp_path / "coach.npz"
@@ -23,12 +25,43 @@ def test_points_of_the_floor(run, tmp_path):
     assert "primary_4_deflection" in outputs
 
 
+def test_the_floors_signal_is_at_every_point_on_the_chosen_line(run, tmp_path):
+    file = tmp_path / "coach.npz"
+    code, *_ = run("export", "--to", "npz", "--output", file, "--signal", "secondary_1_deflection",
+                   "--signal", "floor_acceleration", "--at", "2.5", "--at", "0",
+                   "--floor", "polygon")  # fmt: skip
+    assert code == 0
+    assert np.load(file)["outputs"].tolist() == [
+        "secondary_1_deflection",
+        "floor_acceleration_2_5m_ahead_polygon",
+        "floor_acceleration_polygon",
+    ]
+
+
+BEGINNINGS = {"modelica": b"within ;", "python": b'"""', "c": b"/*", "latex": b"\\document",
+              "fmu": b"PK", "npz": b"PK", "matlab": b"MATLAB 5.0"}  # fmt: skip
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_every_form_is_written(run, tmp_path, target):
+    file = tmp_path / "coach"
+    code, out, err = run("export", "--to", target, "--segments", "2", "--output", file)
+    assert (code, out) == (0, "")
+    assert "remark: cati2024" in err
+    assert file.read_bytes().startswith(BEGINNINGS[target])
+
+
 @pytest.mark.parametrize(("arguments", "parts"), [
     ([], ["--to", "one of", "npz"]),
     (["--to", "excel"], ["--to", "'excel'", "one of", "matlab"]),
     (["--to", "npz"], ["--output", "nothing", "name of a file"]),
     (["--to", "npz", "--output", "no/such/x.npz"], ["--output", "no folder"]),
-    (["--to", "npz", "--output", "x.npz", "--at", "0", "--signal", "f"], ["--at", "--signal"]),
+    (["--to", "npz", "--output", "x.npz", "--at", "1", "--signal", "primary_1_deflection"],
+     ["floor", "points of it, [1.0] m", "'floor_acceleration' among the outputs"]),
+    (["--to", "c", "--output", "x.c", "--floor", "polygon", "--signal", "primary_1_deflection"],
+     ["floor", "polygon", "'floor_acceleration' among the outputs"]),
+    (["--to", "modelica", "--output", "x.mo", "--track", "erri_low", "--signal",
+      "primary_1_deflection"], ["track", "'floor_acceleration' among them"]),
     (["--to", "npz", "--output", "x.npz", "--signal", "flor"], ["'flor'", "floor_acceleration"]),
     (["--to", "npz", "--output", "x.npz", "--at", "99"], ["99", "found", "expected"]),
     (["--to", "npz", "--output", "x.npz", "--vehicle", "ice3", "--signal", "wheel_load_1"],

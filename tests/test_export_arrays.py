@@ -6,11 +6,13 @@ import io
 import shutil
 import subprocess
 
+import export_cases
 import numpy as np
 import pytest
 from scipy.io import loadmat
 from vehicles import paper_coach, random_model
 
+from railride.exports import source
 from railride.exports.as_matlab import NAMES
 from railride.exports.content import content_of
 from railride.exports.write import export_content, export_model
@@ -50,6 +52,18 @@ def test_every_matrix_comes_back_with_names_along_its_axes(content, read):
     assert list(found["outputs"])[:2] == ["floor_acceleration", "floor_acceleration_2_5m_ahead"]
     assert len(found["input_units"]) == len(found["inputs"])
     assert list(found["state_units"][-2:]) == ["m/s", "rad/s"]
+    assert list(found["rates"]) == [f"d{name}" for name in found["elevations"]]
+    for one in ("coordinate", "elevation", "rate", "force", "input", "output"):
+        assert len(found[f"{one}_meanings"]) == len(found[f"{one}s"]) == len(found[f"{one}_units"])
+    assert found["force_meanings"][1] == "actuator over bogie 2, positive when it pushes apart"
+    assert list(found["origin"]) == source.origin(content)
+
+
+def test_an_archive_holds_these_and_no_more(content):
+    texts = [f"{one}{kind}" for one in ("coordinate", "elevation", "rate", "force", "input",
+             "output", "parameter") for kind in ("s", "_units", "_meanings")]  # fmt: skip
+    rest = ["states", "state_units", "parameter_values", "parameter_kinds", "origin", "vehicle"]
+    assert npz(content).keys() == {*AXES, *texts, *rest}
 
 
 @pytest.mark.parametrize("read", [npz, matlab])
@@ -79,6 +93,21 @@ def test_parameters_by_name(content):
     assert {NAMES.original(name): value for name, value in read["parameters"].items()} == own
     assert list(read["parameter_names"]) == list(own)
     assert read["parameter_units"]["k_2" if "k_2" in own else "k_2_b1"] == "N/m"
+    assert read["parameter_meanings"]["L"] == "car-body length"
+
+
+@pytest.mark.parametrize(("kind", "calculated", "defined"), [
+    ("mounts", {"k_theta", "c_theta"}, set()),
+    ("beam", {"phi_1_p1"}, {"k_e1"}),
+])  # fmt: skip
+def test_parameters_tell_what_they_follow(kind, calculated, defined):
+    own = export_cases.content(kind)
+    read = npz(own)
+    kinds = dict(zip(read["parameters"], read["parameter_kinds"], strict=True))
+    assert {kinds[name] for name in calculated} == {"calculated"}
+    assert {kinds[name] for name in defined} <= {"defined"}
+    assert kinds["k_1"] == "independent"
+    assert kinds == {NAMES.original(k): v for k, v in matlab(own)["parameter_kinds"].items()}
 
 
 def test_a_changed_parameter_is_exported_as_changed(tmp_path):

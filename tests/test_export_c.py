@@ -87,6 +87,17 @@ def test_what_is_defined_may_be_set_after_the_rest(tmp_path):
     assert close(compiled.matrices(values)["C"], expected.C)
 
 
+def test_two_vehicles_in_one_source(tmp_path):
+    texts = [export_content(content_of(derive_vehicle(replace(COACH, name=name), segments=n)), "c")
+             for name, n in (("one", 1), ("two", 2))]  # fmt: skip
+    file = tmp_path / "both.c"
+    file.write_text("".join(texts), encoding="utf-8")
+    command = [COMPILER, *FLAGS.split(), file.name, "-o", "both.so", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)  # noqa: S603
+    found = ctypes.CDLL(str(tmp_path / "both.so"))
+    assert found.one_matrices != found.two_matrices
+
+
 def test_no_name_of_a_vehicle_ends_the_text(tmp_path):
     own = content_of(derive_vehicle(replace(COACH, name="*/ int"), segments=1))
     assert Compiled(own, tmp_path).name == "x__u2a__u2f__u20_int"

@@ -64,6 +64,14 @@ def simulated(file, own, t, u, **given):
     return np.array([found[name] for name in own.system.outputs])
 
 
+def test_parameters_of_no_vehicle_are_told(fmu):
+    said = []
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        fmpy.simulate_fmu(fmu("mounts"), start_values={"m_b": 0.0}, debug_logging=True,
+                          logger=lambda *log: said.append(str(log[-1])))  # fmt: skip
+    assert "found m_b = 0.0, of which no equations can be formed" in " ".join(said)
+
+
 def integrated(own, t):
     """The same by an integrator of high order at tight tolerance."""
     s = own.system

@@ -16,7 +16,6 @@ from vehicles import paper_coach, random_vehicle
 from railride import (
     KMH,
     InputError,
-    Output,
     Track,
     derive_vehicle,
     export_model,
@@ -26,7 +25,10 @@ from railride import (
 from railride.exports.as_modelica import NAMES, unit, written
 from railride.exports.content import content_of
 from railride.exports.setup import ride_setup
+from railride.frequency import wheelset_delays
+from railride.rides import ridden_track
 from railride.timerun import following, time_run
+from railride.trackfile import load_track
 
 
 def package(text):
@@ -82,14 +84,6 @@ def test_any_name_of_a_vehicle_makes_a_package():
     assert compiled(text, f"{package(text)}.Coach").structure().is_balanced
 
 
-def test_an_output_must_have_a_name_of_its_own():
-    taken = [Output(name, paper_coach(2).floor().expression, "m/s^2", "")
-             for name in ("m_c", "dw_1", "dz_0", "ddz_0")]  # fmt: skip
-    with pytest.raises(InputError, match="'m_c': found the name of a parameter") as refused:
-        written(content_of(paper_coach(2), taken))
-    assert len(str(refused.value).splitlines()) == len(taken)
-
-
 def test_the_page_of_the_manual_shows_the_package():
     page = Path(__file__).parents[1] / "docs" / "exports.md"
     shown = re.search(r"```modelica\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)[1]
@@ -97,9 +91,36 @@ def test_the_page_of_the_manual_shows_the_package():
     assert [line for line in shown.splitlines() if line.strip() not in lines] == []
 
 
-def test_every_line_fits(line):
+def test_every_line_of_a_ride_fits(line):
     text = written(content("segments"), ride_setup(content("segments"), line, 40.0, length=10.0))
     assert max(len(line) for line in text.splitlines()) <= 100
+
+
+def test_the_package_tells_what_was_done_to_the_track(line, tmp_path):
+    file = tmp_path / "ride.mo"
+    remarks = export_model(paper_coach(2), "modelica", file, track=line, speed=40.0, length=10.0)
+    assert any("three waves begins with a" in remark for remark in remarks)
+    text = re.sub(r"\n  // ", " ", file.read_text(encoding="utf-8"))
+    assert all(f"Remark: {remark}" in text for remark in remarks)
+
+
+def test_two_seconds_and_a_half_on_the_samples_of_a_track():
+    """145 km/h over ERRI low, w and ẇ linear between samples of 1 ms, to 1e-6."""
+    model, speed, dt = paper_coach(4), 145 * KMH, 1e-3
+    own = content_of(model, at=[0.0, 5.0])
+    road, times = ridden_track(load_track("erri_low"), [speed], 200.0, 3), dt * np.arange(2501)
+    behind = speed * wheelset_delays(model, speed)
+    w, slope = road.elevation(road.distance0 + 30.0 - behind[:, None] + speed * times)
+    u = {q.name: z for q, z in zip(own.inputs, [*w, *(speed * slope)], strict=False)}
+    idle = [f.name for f in own.forces]
+    text = driven(written(own), u, dt, idle)
+    _, found = simulated(compiled(text, f"{package(text)}.Driven"), times[-1], dt)
+    s = own.system
+    wheels = slice(0, 2 * len(own.elevations))
+    expected = simulate(s.A, s.B[:, wheels], s.C, s.D[:, wheels], np.array(list(u.values())), dt)
+    for output, y in zip(own.outputs, expected.outputs, strict=True):
+        difference = found[f"coach.{NAMES.written(output.name)}"] - y
+        assert np.abs(difference).max() < 1e-6 * np.abs(y).max(), output.name
 
 
 @pytest.fixture(scope="module")

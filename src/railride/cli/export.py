@@ -45,8 +45,8 @@ def export(
         typer.Option(
             metavar="NAME",
             rich_help_panel=EXPORT,
-            help="An output by name; may be repeated. Default the floor's acceleration at every "
-            "--at and all others that do not feel the elevation's second rate.",
+            help="An output by name, floor_acceleration for that at every --at; may be repeated. "
+            "Default this and all others that do not feel the elevation's second rate.",
         ),
     ] = None,
     track: Annotated[
@@ -96,15 +96,15 @@ def export(
     if to is None and target in TARGETS and not TARGETS[target].text:
         given.faults.add("--output", f"nothing, for --to {target}", "the name of a file",
                          "it is no text that a terminal shows")  # fmt: skip
-    if at and signal:
-        given.conflict("--at", "--signal")
     given.choice("--floor", floor, options.FLOORS)
     places = [given.number("--at", text, "m") for text in at or ("0",)]
     _check_ride(given, target, track, {"--speed": speed, "--length": length, "--seed": seed,
                                        "--extrapolate": extrapolate or None}, reading)  # fmt: skip
-    kmh = given.positive("--speed", speed or "145", "km/h")
-    rated = given.positive("--length", length or "1000", "m")
-    number = given.whole("--seed", seed or "1", 0, options.LARGEST_SEED)
+    ride = {
+        "speed": given.positive("--speed", speed, "km/h"),
+        "length": given.positive("--length", length, "m"),
+        "seed": given.whole("--seed", seed, 0, options.LARGEST_SEED),
+    }
     given.writes({"--output": to}, {"--vehicle": choice.vehicle, "--track": track})
     how = {} if track is None else reading.of(given, track)
     with working("exporting"):
@@ -112,9 +112,8 @@ def export(
         source = None if track is None else chosen_track(track, extrapolate, how)
         from railride.exports.write import exported
 
-        written, remarks = exported(model, str(target), signal, places, floor, track=source,
-                                    speed=kmh, length=rated, seed=number)  # fmt: skip
-    output.deliver(written, to, [*model.vehicle.remarks, *model.remarks, *remarks])
+        written, remarks = exported(model, str(target), signal, places, floor, source, **ride)
+    output.deliver(written, to, list(remarks))
 
 
 def _check_ride(

@@ -3,8 +3,8 @@
 With NAME the vehicle's name, ``NAME_parameters`` is a structure of the parameters,
 ``NAME_defaults`` holds their values, and ``NAME_follow`` sets those that others define.
 ``NAME_matrices`` fills M, C, K, K_w, C_w and B_f, ``NAME_outputs`` Y_a, Y_v, Y_d, Y_w, Y_dw and
-Y_f. The sizes are macros, ``NAME_COORDINATES``, ``NAME_ELEVATIONS``, ``NAME_FORCES``,
-``NAME_OUTPUTS`` and ``NAME_PARAMETERS`` with NAME in capitals; the arrays of texts
+Y_f. The sizes are macros, ``NAME_COORDINATES``, ``NAME_ELEVATIONS``, ``NAME_RATES``,
+``NAME_FORCES``, ``NAME_OUTPUTS`` and ``NAME_PARAMETERS`` with NAME in capitals; the arrays of texts
 ``NAME_coordinate_names`` and so on tell what stands along the axes, ``NAME_parameter_names`` the
 members of the structure in their order. There is no state space: it takes a solver for M.
 """
@@ -12,6 +12,7 @@ members of the structure in their order. There is no state space: it takes a sol
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Mapping
 from itertools import chain
 
@@ -26,7 +27,7 @@ NAMES = Names(frozenset(reserved_words) | frozenset(reserved_words_c99))
 """C's keywords."""
 
 _HEAD = """/* {title}
- *
+{said} *
  *     M q'' + C q' + K q = K_w w + C_w w' + B_f f
  *     y = Y_a q'' + Y_v q' + Y_d q + Y_w w + Y_dw w' + Y_f f
  *
@@ -45,7 +46,7 @@ _HEAD = """/* {title}
 #define M_PI 3.14159265358979323846
 #endif
 
-static void zero(double *a, int count)
+static void {name}_zero(double *a, int count)
 {{
     while (count-- > 0)
         *a++ = 0.0;
@@ -57,12 +58,18 @@ def written(content: Content) -> str:
     """The file's text."""
     name = NAMES.written(content.name)
     return "\n".join([
-        _HEAD.format(title=source.title(content), name=name),
+        _HEAD.format(title=source.title(content), said=_origin(content), name=name),
         *_axes(content, name),
         *_parameters(content, name),
         *_function("matrices", content.linear.matrices, name),
         *_function("outputs", content.rows, name),
     ])  # fmt: skip
+
+
+def _origin(content: Content) -> str:
+    """Lines of the comment at the head, which nothing in them ends."""
+    said = [textwrap.wrap(text, 94) for text in source.origin(content)]
+    return "".join(f" * {line}\n" for lines in said for line in lines).replace("*/", "* /")
 
 
 def _axes(content: Content, name: str) -> list[str]:
@@ -88,10 +95,9 @@ def _parameters(content: Content, name: str) -> list[str]:
     lines += [f"}} {name}_parameters;", "", f"const {name}_parameters {name}_defaults = {{"]
     lines += [f"    .{member(p.name)} = {p.value!r}," for p in content.parameters]
     lines += ["};", "", f"void {name}_follow({name}_parameters *p)", "{"]
-    lines += [
-        f"    {_member(p.name)} = {_PRINTER.doprint(source.renamed(p.definition, _member))};"
-        for p in defined
-    ]
+    for p in defined:
+        value = _PRINTER.doprint(source.renamed(p.definition, _member))
+        lines += source.assignments([_member(p.name)], value, ";")
     return [*lines, *([] if defined else ["    (void)p;"]), "}"]
 
 
@@ -108,11 +114,12 @@ def _function(kind: str, matrices: Mapping[str, sp.MatrixBase], name: str) -> li
     left = iter(values)
     head = [f"void {name}_{kind}(const {name}_parameters *p", *arguments]
     lines = ["", ",\n    ".join(head) + ")", "{"]
-    lines += [f"    const double {part} = {_PRINTER.doprint(value)};" for part, value in parts]
+    for part, value in parts:
+        lines += source.assignments([f"const double {part}"], _PRINTER.doprint(value), ";")
     if not any(value.free_symbols for value in values):
         lines.append("    (void)p;")
     for title, own in entries.items():
-        lines += [f"    zero(&{title}[0][0], {' * '.join(of[title])});"]
+        lines += [f"    {name}_zero(&{title}[0][0], {' * '.join(of[title])});"]
         for places, value in zip(own.values(), left, strict=False):
             targets = [f"{title}[{i}][{j}]" for i, j in places]
             lines += source.assignments(targets, _PRINTER.doprint(value), ";")

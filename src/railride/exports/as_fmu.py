@@ -36,7 +36,7 @@ keep(globals())
 class {name}(VehicleSlave):
     """{title}"""
 
-    description = "{title}"
+    description = {description!r}
     version = "{version}"
     model = model
     said = {said}
@@ -62,9 +62,10 @@ def written(content: Content) -> bytes:
     module = f"{name}_{hashlib.sha256(model.encode()).hexdigest()[:12]}"
     said = _said(content)
     units = {unit: base_units(unit) for unit, _ in said.values() if unit}
-    script = _SCRIPT.format(title=source.title(content), name=name, module=module,
-                            version=__version__, said=pformat(said, width=96, sort_dicts=False),
-                            units=units)  # fmt: skip
+    title = source.title(content)
+    script = _SCRIPT.format(title=title, description=" ".join([title, *source.origin(content)]),
+                            name=name, module=module, version=__version__, units=units,
+                            said=pformat(said, width=96, sort_dicts=False))  # fmt: skip
     texts = {f"{module}.py": script, f"{module}_model.py": model,
              f"{module}_slave.py": _SLAVE.read_text(encoding="utf-8")}  # fmt: skip
     path = list(sys.path)
@@ -87,7 +88,9 @@ def _said(content: Content) -> dict[str, tuple[str, str]]:
     states = zip(names["states"], names["state_units"], strict=True)
     quantities = (*content.parameters, *chain(*source.axes(content).values()))
     meant = {q.name: q.meaning for q in quantities}
+    meant |= {p.name: f"{p.meaning}; calculated by railride, stays when others change"
+              for p in content.parameters if p.follows}  # fmt: skip
     return {
         **{name: (unit, meant.get(name, "")) for name, unit in states},
-        **{q.name: (q.unit, q.meaning) for q in quantities},
+        **{q.name: (q.unit, meant[q.name]) for q in quantities},
     }

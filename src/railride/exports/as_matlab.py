@@ -1,9 +1,10 @@
 """A MATLAB file (version 5), as MATLAB, GNU Octave and ``scipy.io.loadmat`` read it.
 
-The arrays are those of ``railride.exports.arrays``, with names and units as columns of cells;
-``vehicle`` is the vehicle's name. The structures ``parameters`` and ``parameter_units`` have a
-field for each parameter, its name written as ``railride.exports.names`` says, and the cell array
-``parameter_names`` has the names as they are, in the order of the fields.
+The arrays are those of ``railride.exports.arrays``, texts as columns of cells; ``vehicle`` is the
+vehicle's name. Of the parameters there are structures, ``parameters`` of the values,
+``parameter_units``, ``parameter_meanings`` and ``parameter_kinds``, with a field for each, its name
+written as ``railride.exports.names`` says; the cells of ``parameter_names`` have the names as they
+are, in the order of the fields.
 """
 
 from __future__ import annotations
@@ -28,15 +29,19 @@ def written(content: Content) -> bytes:
     """The file's bytes."""
     from scipy.io import savemat
 
-    parameters = content.parameters
+    texts = arrays.texts(content)
+    names = texts.pop("parameters")
+    fields = [NAMES.written(name) for name in names]
+    values = [p.value for p in content.parameters]
     held = {
         **arrays.matrices(content),
-        **{name: _cells(texts) for name, texts in arrays.names(content).items()},
         "vehicle": content.name,
-        "parameter_names": _cells([p.name for p in parameters]),
-        "parameters": {NAMES.written(p.name): p.value for p in parameters},
-        "parameter_units": {NAMES.written(p.name): p.unit for p in parameters},
+        "parameter_names": _cells(names),
+        "parameters": dict(zip(fields, values, strict=True)),
     }
+    for name, own in texts.items():
+        of_each = name.startswith("parameter_")
+        held[name] = dict(zip(fields, own, strict=True)) if of_each else _cells(own)
     stream = io.BytesIO()
     savemat(stream, held, do_compression=True, long_field_names=True, oned_as="column")
     return stream.getvalue()

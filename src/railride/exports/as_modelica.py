@@ -17,13 +17,14 @@ Language Specification 3.4: 2.3 (keywords), 3.7 (built-in operators), 19 (units)
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Iterable, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import sympy as sp
 from sympy.printing.str import StrPrinter
 
-from railride.errors import Faults
 from railride.exports import source
 from railride.exports.content import Content, Quantity
 from railride.exports.names import Names
@@ -49,21 +50,16 @@ NAMES = Names(
 """Modelica's keywords and built-in names, and the connectors of the package."""
 
 SHORT = 72  # an equation that stands on one line
+LONG = source.WIDTH - 6  # what a line of a model may hold: it is in the package, and indented
 
 
 def written(content: Content, setup: Setup | None = None) -> str:
-    """The package's text; with a ``setup``, the ride over its track as well.
-
-    Raises
-    ------
-    InputError : an output that has the name of something else in ``Coach``.
-    """
-    _check_names(content)
+    """The package's text; with a ``setup``, the ride over its track as well."""
     name = NAMES.written(content.name)
     lines = [
         "within ;",
-        f"package {name} {quoted(source.title(content))}",
-        *_head(content),
+        *titled("package", name, source.title(content)),
+        *_head(content, () if setup is None else setup.remarks),
         *_CONNECTORS,
     ]
     lines += _indented(coach(content))
@@ -72,21 +68,6 @@ def written(content: Content, setup: Setup | None = None) -> str:
 
         lines += _indented(ride(content, setup))
     return "\n".join([*lines, f"end {name};", ""])
-
-
-def _check_names(content: Content) -> None:
-    """Refuse outputs with names that the model has for something else; only theirs are free."""
-    known = {p.name: "a parameter" for p in content.parameters}
-    known |= {u.name: "an input" for u in content.inputs}
-    for q in content.coordinates:
-        known |= {q.name: "a coordinate", f"d{q.name}": f"the rate of {q.name}"}
-        known |= {f"dd{q.name}": f"the acceleration of {q.name}"}
-    faults = Faults("export to Modelica")
-    for output in content.outputs:
-        if output.name in known:
-            faults.add(f"output {output.name!r}", f"the name of {known[output.name]}",
-                       "a name of its own", "rename it")  # fmt: skip
-    faults.raise_if_any()
 
 
 def unit(own: str) -> str:
@@ -128,17 +109,14 @@ def printed(u: sp.Expr) -> str:
     return str(_Printer({"order": "none"}).doprint(u)).replace("**", "^")
 
 
-def _head(content: Content) -> list[str]:
+def _head(content: Content, remarks: Iterable[str]) -> list[str]:
     """What the package is, as comments."""
-    values = content.model.vehicle.source
     said = [
-        *([f"Source of the values: {values}"] if values else []),
-        *(f"Remark: {remark}" for remark in (*content.model.vehicle.remarks,
-                                             *content.model.remarks)),
+        *source.origin(content, remarks),
         ("SI units; x forward from the middle of the car body, z up, pitch positive nose-up; "
         "numbered from the front. Displacements count from static equilibrium."),
     ]  # fmt: skip
-    return [f"  // {line}" for text in said for line in _wrapped(text.split(), 94)]
+    return [f"  // {line}" for text in said for line in textwrap.wrap(text, 94)]
 
 
 _CONNECTORS = """
@@ -164,28 +142,38 @@ def coach(content: Content) -> list[str]:
     ]  # fmt: skip
 
 
-def declared(kind: str, q: Quantity, modifiers: str = "", value: str = "") -> str:
-    """``kind name(modifiers, unit = "…") = value "meaning";``."""
+def titled(kind: str, name: str, said: str) -> list[str]:
+    """``kind name "said"``, what is said on a line of its own where it is too long."""
+    first, *rest = source.folded([f"{kind} {name}", f" {quoted(said)}"], LONG)
+    return [first, *(f"  {line}" for line in rest)]
+
+
+def declared(kind: str, q: Quantity, modifiers: str = "", value: str = "") -> list[str]:
+    """``kind name(modifiers, unit = "…") = value "meaning";``, cut where it is too long."""
     attributes = ", ".join(filter(None, [modifiers, f'unit = "{unit(q.unit)}"']))
-    said = f" {quoted(q.meaning)}" if q.meaning else ""
-    return f"{kind} {NAMES.written(q.name)}({attributes}){value}{said};"
+    said = [f" {quoted(q.meaning)}"] if q.meaning else []
+    head = f"{kind} {NAMES.written(q.name)}({attributes})"
+    pieces = [head, *(source.terms(f" = {value}") if value else []), *said]
+    first, *rest = source.folded([*pieces[:-1], f"{pieces[-1]};"], LONG)
+    return [first, *(f"  {line}" for line in rest)]
 
 
 def _parameters(content: Content) -> list[str]:
     free, following, defined = source.parameters(content)
     note = [f"// {source.FOLLOWING}"] if following else []
+    kind = "parameter Real"
     return [
-        *(declared("parameter Real", p, value=f" = {number(p.value)}") for p in free),
-        *(declared("parameter Real", p, value=f" = {expression(p.definition)}") for p in defined),
+        *chain(*(declared(kind, p, value=number(p.value)) for p in free)),
+        *chain(*(declared(kind, p, value=expression(p.definition)) for p in defined)),
         *note,
-        *(declared("parameter Real", p, value=f" = {number(p.value)}") for p in following),
+        *chain(*(declared(kind, p, value=number(p.value)) for p in following)),
     ]
 
 
 def _connectors(content: Content) -> list[str]:
     return [
-        *(declared("RealInput", u) for u in content.inputs),
-        *(declared("RealOutput", y) for y in source.axes(content)["outputs"]),
+        *chain(*(declared("RealInput", u) for u in content.inputs)),
+        *chain(*(declared("RealOutput", y) for y in source.axes(content)["outputs"])),
     ]
 
 
@@ -196,10 +184,10 @@ def _coordinates(content: Content) -> list[str]:
         rate, second = Quantity(f"d{q.name}", f"{q.unit}/s", ""), Quantity(
             f"dd{q.name}", f"{q.unit}/s^2", "")  # fmt: skip
         start = "start = 0, fixed = true"
-        lines.append(declared("Real", q, start))
-        lines.append(declared("Real", rate, start if own else ""))
+        lines += declared("Real", q, start)
+        lines += declared("Real", rate, start if own else "")
         if own:
-            lines.append(declared("Real", second))
+            lines += declared("Real", second)
     return lines
 
 
@@ -260,9 +248,10 @@ def _equation(left: Sequence[list[str]], right: Sequence[list[str]]) -> list[str
         words = [word for terms in side for word in terms] or ["0"]
         groups = [terms for terms in side if terms] or [["0"]]
         for terms in groups:
-            signed = [part for term in terms for part in _parts(_signed(term, term is words[0]))]
+            pieces = [part for term in terms for part in _parts(_signed(term, term is words[0]))]
             lead = mark if terms is groups[0] else ""
-            lines += _wrapped([lead + signed[0], *signed[1:]], 92, "  " if lines else "")
+            lines += source.folded([lead + pieces[0].lstrip(), *pieces[1:]], LONG, "  ")
+    lines[0] = lines[0].lstrip()
     whole = " ".join(line.strip() for line in lines) + ";"
     return [whole] if len(whole) <= SHORT else [*lines[:-1], f"{lines[-1]};"]
 
@@ -275,19 +264,8 @@ def _signed(term: str, first: bool) -> str:
 
 
 def _parts(term: str) -> list[str]:
-    """A term that no line holds, cut before the signs of its sums."""
-    return [term] if len(term) <= SHORT else re.split(r"(?<=\S\S) (?=[+-] )", term)
-
-
-def _wrapped(words: Iterable[str], width: int, indent: str = "") -> list[str]:
-    """Words in lines of at most ``width`` characters, as far as they can be."""
-    lines: list[str] = []
-    for word in words:
-        if lines and len(lines[-1]) + 1 + len(word) <= width:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(f"{indent if not lines else indent or '  '}{word}")
-    return lines
+    """A term that follows others, cut where it is too long to stand on one line."""
+    return [f" {term}"] if len(term) <= SHORT else source.terms(f" {term}")
 
 
 def _indented(lines: Iterable[str]) -> list[str]:

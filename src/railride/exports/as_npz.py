@@ -1,7 +1,7 @@
-"""A NumPy archive: every matrix, names and units along its axes, the parameters.
+"""A NumPy archive: every matrix, what stands along its axes, the parameters.
 
-The arrays are those of ``railride.exports.arrays``, and ``vehicle``, ``parameters``,
-``parameter_values`` and ``parameter_units``. Nothing is pickled: ``numpy.load`` reads it as it is.
+The arrays are those of ``railride.exports.arrays``, and ``vehicle``, its name. Nothing is pickled:
+``numpy.load`` reads it as it is.
 """
 
 from __future__ import annotations
@@ -16,15 +16,12 @@ from railride.exports.content import Content
 
 def written(content: Content) -> bytes:
     """The archive's bytes."""
-    parameters = content.parameters
     held = {
         **arrays.matrices(content),
-        **{name: np.array(texts, dtype=str) for name, texts in arrays.names(content).items()},
+        **{name: np.array(texts, dtype=str) for name, texts in arrays.texts(content).items()},
         "vehicle": np.array(content.name),
-        "parameters": np.array([p.name for p in parameters], dtype=str),
-        "parameter_values": np.array([p.value for p in parameters]),
-        "parameter_units": np.array([p.unit for p in parameters], dtype=str),
+        "parameter_values": np.array([p.value for p in content.parameters]),
     }
     stream = io.BytesIO()
-    np.savez_compressed(stream, allow_pickle=False, **held)
+    np.savez_compressed(stream, **held)  # type: ignore[arg-type]  # no array is allow_pickle
     return stream.getvalue()

@@ -43,7 +43,8 @@ def written(content: Content) -> str:
     lines = [*_records(content), *_matrices(content), *_state_space(content)]
     imports = ["import math", ""] if any("math." in line for line in lines) else []
     head = _HEAD.format(title=source.title(content))
-    return "\n".join([head, *imports, "import numpy as np", "", *lines])
+    said = [line for text in source.origin(content) for line in _comment(text, "")]
+    return "\n".join([head, *said, *imports, "import numpy as np", "", *lines])
 
 
 _HEAD = '''"""{title}
@@ -68,9 +69,9 @@ def _records(content: Content) -> list[str]:
     note = [f"    # {source.FOLLOWING}"] if following else []
     lines = [
         "PARAMETERS = {",
-        *(_line(p.name, p.value, p.unit, p.meaning) for p in free),
+        *(line for p in free for line in _lines(p.name, p.value, p.unit, p.meaning)),
         *note,
-        *(_line(p.name, p.value, p.unit, p.meaning) for p in following),
+        *(line for p in following for line in _lines(p.name, p.value, p.unit, p.meaning)),
         "}",
         "# Those that the others define, in matrices(), unless they are given.",
     ]
@@ -80,16 +81,23 @@ def _records(content: Content) -> list[str]:
         "states": [Quantity(name, unit, "") for name, unit in states],
     }
     for title, quantities in axes.items():
-        own = [_line(q.name, q.unit, q.meaning) for q in quantities]
+        own = [line for q in quantities for line in _lines(q.name, q.unit, q.meaning)]
         head = f"{title.upper()} = {{"
         lines += [head, *own, "}"] if own else [f"{head}}}"]
     return [*lines, "INPUTS = {**ELEVATIONS, **RATES, **FORCES}", ""]
 
 
-def _line(name: str, value: object, *said: str) -> str:
-    """``"name": value,  # said``."""
-    comment = ", ".join(filter(None, said))
-    return f"    {json.dumps(name)}: {json.dumps(value)}," + (f"  # {comment}" if comment else "")
+def _lines(name: str, value: object, *said: str) -> list[str]:
+    """``"name": value,  # said``, what is said before it where it does not fit beside."""
+    entry, comment = f"    {json.dumps(name)}: {json.dumps(value)},", ", ".join(filter(None, said))
+    beside = f"{entry}  # {comment}" if comment else entry
+    return [beside] if len(beside) <= source.WIDTH else [*_comment(comment, "    "), entry]
+
+
+def _comment(text: str, indent: str) -> list[str]:
+    return textwrap.wrap(text, source.WIDTH, initial_indent=f"{indent}# ",
+                         subsequent_indent=f"{indent}#   ", break_long_words=False,
+                         break_on_hyphens=False)  # fmt: skip
 
 
 def _matrices(content: Content) -> list[str]:
@@ -98,11 +106,10 @@ def _matrices(content: Content) -> list[str]:
     free, following, defined = source.parameters(content)
     lines = _MATRICES.split("\n")
     lines += [f"    {name(p.name)} = p[{json.dumps(p.name)}]" for p in (*free, *following)]
-    lines += [
-        f"    {name(p.name)} = p.get({json.dumps(p.name)}, "
-        f"{show(source.renamed(p.definition, name))})"
-        for p in defined
-    ]
+    for p in defined:
+        value = show(source.renamed(p.definition, name))
+        own = f"p.get({json.dumps(p.name)}, {value})"
+        lines += source.assignments([name(p.name)], own)
     for matrix, values in source.entries(content.matrices, name).items():
         lines += ["", f"    {matrix} = np.zeros({content.matrices[matrix].shape})"]
         for value, places in values.items():

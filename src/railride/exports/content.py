@@ -16,8 +16,11 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
+from railride.errors import Faults, InputError
+from railride.frequency import FLOOR
 from railride.linear import LinearModel, output_rows
 from railride.numeric import Array, Matrices
+from railride.quantities import names, several
 from railride.report.kinematics import meaning_and_unit
 from railride.statespace import System, chosen_outputs, system_arrays
 from railride.vehicle import Output, VehicleModel
@@ -67,6 +70,11 @@ class Content:
     def name(self) -> str:
         """The vehicle's name."""
         return self.model.vehicle.name
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the user should know of the values and of how the model was made."""
+        return (*self.model.vehicle.remarks, *self.model.remarks)
 
     @property
     def linear(self) -> LinearModel:
@@ -168,31 +176,56 @@ class Content:
 def content_of(
     model: VehicleModel,
     outputs: Output | str | Sequence[Output | str] | None = None,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = 0.0,
     floor: str = "smooth",
 ) -> Content:
     """The content of an export.
 
     Parameters
     ----------
-    outputs : one or several, or their names; default: the floor's acceleration at the points
-        ``at``, and every output of the vehicle that does not feel the elevation's second rate.
+    outputs : one or several, or their names, "floor_acceleration" for that at all points ``at``;
+        default: these, and every output of the vehicle that does not feel the elevation's second
+        rate.
     at : points of the floor, m forward of the body's middle. floor : "smooth", "polygon" or
         "spline".
 
     Raises
     ------
-    InputError : an output that does not exist, or that feels the second rate of the elevation, as
-        a wheel load does.
+    InputError : an output that does not exist, that has the name of something else in the export,
+        or that feels the second rate of the elevation, as a wheel load does; a point or a kind of
+        the floor, and nothing of the floor among the outputs.
     """
+    points = several(at, "at", "m")
     if outputs is None:
         own = list(model.outputs.values())
         second = model.output_rows(own)["ddw"]
-        proper = [o for o, row in zip(own, second, strict=True) if not np.any(row)]
-        outputs = [*(model.floor(x, floor) for x in at), *proper]
-    content = Content(model, tuple(chosen_outputs(model, outputs)))
+        outputs = [FLOOR, *(o for o, row in zip(own, second, strict=True) if not np.any(row))]
+    asked = [outputs] if isinstance(outputs, Output) else names(outputs, "outputs")
+    if FLOOR not in asked and (points != [0.0] or floor != "smooth"):
+        found = f"the floor on its {floor} line" if points == [0.0] else f"points of it, {points} m"
+        raise InputError(f"floor: found {found}, but no {FLOOR!r} among the outputs; expected it "
+                         "there (or neither)")  # fmt: skip
+    floors = [model.floor(x, floor) for x in points]
+    wanted = [o for output in asked for o in (floors if output == FLOOR else [output])]
+    content = Content(model, tuple(chosen_outputs(model, wanted)))
+    _check_names(content)
     _ = content.system  # refuses what cannot be exported
     return content
+
+
+def _check_names(content: Content) -> None:
+    """Refuse outputs with names that an export has for something else; only theirs are free."""
+    known = {p.name: "a parameter" for p in content.parameters}
+    known |= {u.name: "an input" for u in content.inputs}
+    for q in content.coordinates:
+        known |= {q.name: "a coordinate", f"d{q.name}": f"the rate of {q.name}"}
+        known |= {f"dd{q.name}": f"the acceleration of {q.name}"}
+    faults = Faults("export")
+    for output in content.outputs:
+        if output.name in known:
+            faults.add(f"output {output.name!r}", f"the name of {known[output.name]}",
+                       "a name of its own", "rename it")  # fmt: skip
+    faults.raise_if_any()
 
 
 def _all_symbols(symbol: sp.Symbol, defined: dict[sp.Symbol, sp.Expr]) -> set[sp.Symbol]:

@@ -91,8 +91,24 @@ class VehicleSlave(Fmi2Slave):
     def plant(self) -> tuple[Array, ...]:
         """A, B, C and D at the parameters."""
         if self._plant is None:
-            self._plant = self.model.state_space(**self.parameters)
+            self._plant = self._formed()
         return self._plant
+
+    def _formed(self) -> tuple[Array, ...]:
+        """A, B, C and D; ValueError, which the tool's log shows, where there are none."""
+        try:
+            with np.errstate(all="ignore"):
+                found: tuple[Array, ...] = self.model.state_space(**self.parameters)
+            if all(np.isfinite(A).all() for A in found):
+                return found
+            reason = "values that are not finite"
+        except (ArithmeticError, ValueError) as error:
+            reason = str(error)
+        own = self.model.PARAMETERS
+        changed = (f"{k} = {v!r}" for k, v in self.parameters.items() if v != own.get(k))
+        raise ValueError(f"parameters: found {', '.join(changed)}, of which no equations can be "
+                         f"formed ({reason}); expected finite numbers, and masses, inertias and "
+                         "lengths above 0") from None  # fmt: skip
 
     @property
     def rates(self) -> slice:

@@ -19,9 +19,9 @@ from railride.exports import as_modelica as modelica
 from railride.exports.content import Content
 from railride.exports.modelica_track import track
 from railride.exports.setup import Setup
+from railride.frequency import FLOOR
 
 NAMES, number = modelica.NAMES, modelica.number
-FLOOR = "floor_acceleration"
 
 
 def ride(content: Content, setup: Setup) -> list[str]:
@@ -56,7 +56,7 @@ def _weighting(setup: Setup) -> list[str]:
     chain = itertools.pairwise(names)
     return [
         "",
-        f"block Weighting {modelica.quoted(f'{weight.name}, {weight.standard}')}",
+        *modelica.titled("block", "Weighting", f"{weight.name}, {weight.standard}"),
         '  RealInput a(unit = "m/s2");',
         '  RealOutput a_w(unit = "m/s2");',
         *(line for name, (b, a) in factors.items() for line in (
@@ -82,7 +82,7 @@ def _ride(content: Content, setup: Setup) -> list[str]:
     stop = math.floor(1000 * setup.duration) / 1000
     return [
         "",
-        f"model Ride {modelica.quoted(said)}",
+        *modelica.titled("model", "Ride", said),
         f'  parameter Real V(unit = "m/s") = {number(setup.speed)} "speed";',
         f'  parameter Real run_in(unit = "m") = {number(setup.run_in)} "before the rated section";',
         *_placed(content, setup),

@@ -13,7 +13,7 @@ Springer 1993, II.6 (Hermite interpolation).
 
 from __future__ import annotations
 
-from railride.exports.as_modelica import number, quoted
+from railride.exports.as_modelica import number, titled
 from railride.exports.setup import Setup
 from railride.numeric import Array
 
@@ -112,7 +112,7 @@ def _block(setup: Setup, wheelsets: int) -> list[str]:
     each = range(1, wheelsets + 1)
     return [
         "",
-        f"block Track {quoted(setup.track)}",
+        *titled("block", "Track", setup.track),
         '  parameter Real V(unit = "m/s") "speed";',
         (f'  parameter Real start(unit = "m") = {number(setup.start)} "place of the leading '
         'wheelset at time 0";'),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from railride.errors import InputError
 from railride.exports.content import Content
-from railride.frequency import wheelset_delays
+from railride.frequency import FLOOR, wheelset_delays
 from railride.numeric import Array
 from railride.rides import ridden_track
 from railride.spectra import Spectrum
@@ -55,12 +55,11 @@ class Setup:
 def ride_setup(
     content: Content,
     track: str | Path | Spectrum | Track,
-    speed: float,
+    speed: float = 145 / 3.6,
     *,
     length: float = 1000.0,
     seed: int = 1,
     weight: str | Weighting = "Wk",
-    **reading: Any,
 ) -> Setup:
     """The run of :func:`railride.ride` as an export holds it.
 
@@ -68,16 +67,20 @@ def ride_setup(
     ----------
     track : a spectrum by name or a measured track by its file, or either as it is.
     speed : V in m/s. length : of the rated section, m. seed : of a synthetic track.
-    weight : the frequency weighting. reading : how a file is read, see :func:`railride.read_track`.
+    weight : the frequency weighting.
 
     Raises
     ------
     InputError : a track that does not exist or is shorter than ``length``; a speed that is none; an
-        unstable vehicle.
+        unstable vehicle; no acceleration of the floor among the outputs, which the ride weights.
     """
+    if not any(output.name.startswith(FLOOR) for output in content.outputs):
+        listed = ", ".join(output.name for output in content.outputs)
+        raise InputError(f"track: found a ride with the outputs {listed}; expected {FLOOR!r} among "
+                         "them, which it weights")  # fmt: skip
     check_speed(speed)
     model, weight = content.model, weighting(weight)
-    line = ridden_track(load_track(track, **reading), [speed], length, seed)
+    line = ridden_track(load_track(track), [speed], length, seed)
     settling, remark = run_in_time(model, content.system, speed, weight)
     line, run_in = with_run_in(model, speed, line, length, speed * settling)
     start = line.end - length - run_in

@@ -19,7 +19,18 @@ FOLLOWING = "Calculated by railride from the others; here they stay unless they 
 def title(content: Content) -> str:
     """The vehicle, what its body is and what wrote the file, in letters that end no comment."""
     name = re.sub(r"[^\w .,()+-]", "_", content.name)
-    return f"{name}: {content.model.body.phrase}, linear; exported by railride {__version__}."
+    return f"{name}: {content.model.body.phrase}, linear, by railride {__version__}."
+
+
+def origin(content: Content, remarks: Iterable[str] = ()) -> list[str]:
+    """Where the values are from and what the user should know, each on a line without breaks.
+
+    remarks : more of these.
+    """
+    values = content.model.vehicle.source
+    said = [f"Source of the values: {values}"] if values else []
+    said += [f"Remark: {remark}" for remark in (*content.remarks, *remarks)]
+    return [" ".join(text.split()) for text in said]
 
 
 def parameters(
@@ -71,11 +82,43 @@ def assignments(targets: Iterable[str], value: str, end: str = "") -> list[str]:
     >>> assignments(["M[0, 0]", "M[1, 1]"], "m/2")
     ['    M[0, 0] = M[1, 1] = m/2']
     """
-    lines, line, first = [], "    ", ""
+    lines: list[str] = []
+    line, first = "    ", ""
     for target in targets:
         if first and len(f"{line}{target} = {value}{end}") > WIDTH:
-            lines.append(f"{line}{value}{end}")
+            lines += _assigned(line, value, end)
             line, value = "    ", first
         first = first or target
         line += f"{target} = "
-    return [*lines, f"{line}{value}{end}"]
+    return [*lines, *_assigned(line, value, end)]
+
+
+def _assigned(line: str, value: str, end: str) -> list[str]:
+    """A line with its value, between brackets on lines of their own where it does not fit."""
+    if len(f"{line}{value}{end}") <= WIDTH:
+        return [f"{line}{value}{end}"]
+    return [f"{line}(", *folded(terms(value), WIDTH, " " * 8), f"    ){end}"]
+
+
+def terms(value: str) -> list[str]:
+    """An expression cut before the operators of its sums and products, to be put on lines.
+
+    >>> terms("2*a**2 - b*(c + 1e-3)")
+    ['2', '*a**2', ' - b', '*(c', ' + 1e-3)']
+    """
+    return re.split(r"(?= [+-] )|(?<!\*)(?=\*(?!\*))", value)
+
+
+def folded(pieces: Iterable[str], width: int, indent: str = "") -> list[str]:
+    """Pieces of a text in indented lines of at most ``width`` characters, as far as they can be.
+
+    >>> folded(["a", "*b", " + c"], 5)
+    ['a*b', '+ c']
+    """
+    lines: list[str] = []
+    for piece in pieces:
+        if lines and len(lines[-1] + piece) <= width:
+            lines[-1] += piece
+        else:
+            lines.append(indent + piece.lstrip())
+    return lines

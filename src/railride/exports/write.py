@@ -34,32 +34,37 @@ def export_model(
     file: str | Path,
     *,
     outputs: Output | str | Sequence[Output | str] | None = None,
-    at: Sequence[float] = (0.0,),
+    at: float | Sequence[float] = 0.0,
     floor: str = "smooth",
     track: str | Path | Spectrum | Track | None = None,
-    speed: float = 145 / 3.6,
-    length: float = 1000.0,
-    seed: int = 1,
-) -> None:
+    speed: float | None = None,
+    length: float | None = None,
+    seed: int | None = None,
+) -> tuple[str, ...]:
     """Write the linear model in another tool's form, the whole file or nothing.
+
+    Returns what the user should know of the values, the model and the ride; it stands in the file
+    as well.
 
     Parameters
     ----------
     target : one of ``railride.exports.targets.TARGETS``.
     file : to be written or replaced.
-    outputs : one or several, or their names; default: the floor's acceleration at the points
-        ``at``, and every output of the vehicle that does not feel the elevation's second rate.
+    outputs : one or several, or their names, "floor_acceleration" for that at all points ``at``;
+        default: these, and every output of the vehicle that does not feel the elevation's second
+        rate.
     at : points of the floor, m forward of the body's middle.
     floor : "smooth", "polygon" or "spline".
     track : of "modelica" alone: the ride over this track as well, a spectrum by name or a measured
         track by its file, or either as it is; see ``railride.exports.setup``.
-    speed, length, seed : of that ride, in m/s and m; of a synthetic track.
+    speed, length : of that ride, m/s and m; default 145 km/h and 1000 m. seed : of a synthetic
+        track; default 1.
 
     Raises
     ------
     InputError : a target that does not exist, or whose library is not installed; a track for one
-        that holds none; an output that does not exist or that feels the second rate of the
-        elevation; a file that cannot be written.
+        that holds none, or what is said of a ride without a track; outputs that do not go with what
+        else is asked, see ``railride.exports.content``; a file that cannot be written.
 
     Examples
     --------
@@ -67,34 +72,36 @@ def export_model(
     >>> from railride.vehicle import derive_vehicle
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder, "coach.npz")
-    ...     export_model(derive_vehicle("cati2024", segments=2), "npz", file)
+    ...     remarks = export_model(derive_vehicle("cati2024", segments=2), "npz", file)
     ...     numpy.load(file)["M"].shape
     (7, 7)
     """
-    found, _ = exported(
-        model, target, outputs, at, floor, track=track, speed=speed, length=length, seed=seed
+    found, remarks = exported(
+        model, target, outputs, at, floor, track, speed=speed, length=length, seed=seed
     )
     write_bytes(file, found.encode() if isinstance(found, str) else found)
+    return remarks
 
 
 def exported(
     model: VehicleModel,
     target: str,
     outputs: Output | str | Sequence[Output | str] | None,
-    at: Sequence[float],
+    at: float | Sequence[float],
     floor: str,
-    *,
     track: str | Path | Spectrum | Track | None,
-    speed: float,
-    length: float,
-    seed: int,
+    **ride: Any,
 ) -> tuple[str | bytes, tuple[str, ...]]:
-    """What :func:`export_model` writes, and remarks on the ride in it; arguments as there."""
+    """What :func:`export_model` writes and returns; arguments as there."""
     content = content_of(model, outputs, at, floor)
+    given = {name: value for name, value in ride.items() if value is not None}
     if track is None:
-        return export_content(content, target), ()
+        for name, value in given.items():
+            raise InputError(f"{name}: found {value!r}, but no track; expected the track of a ride "
+                             "(or neither)")  # fmt: skip
+        return export_content(content, target), content.remarks
     if target != "modelica":
         raise InputError(f"track: found one for {target!r}; expected none (only 'modelica' "
                          "holds a ride)")  # fmt: skip
-    setup = ride_setup(content, track, speed, length=length, seed=seed)
-    return export_content(content, target, setup=setup), setup.remarks
+    setup = ride_setup(content, track, **given)
+    return export_content(content, target, setup=setup), (*content.remarks, *setup.remarks)
