@@ -9,6 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+def shortened(text: str, longest: int = 60) -> str:
+    """The beginning of a text that is longer than a message should hold.
+
+    >>> shortened("3000 kg"), shortened("123456", longest=4)
+    ('3000 kg', '1234…')
+    """
+    return text if len(text) <= longest else f"{text[:longest]}…"
+
+
 class InputError(ValueError):
     """What the user gave cannot be used. The command line prints it and exits with 2."""
 

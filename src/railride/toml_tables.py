@@ -15,14 +15,11 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from railride.errors import Faults
+from railride.errors import Faults, shortened
 from railride.units import QuantityError, parse_quantity
 
 # A parameter or study file has some kilobytes; what is larger is something else.
 _MOST_BYTES = 1_000_000
-
-# Longer keys and values are shown by their beginning.
-_LONGEST = 60
 
 # What a quantity of a vehicle or study may come to, in SI units.
 _LARGEST = 1e40
@@ -125,7 +122,7 @@ class Table:
 
     def key(self, name: str) -> str:
         """Full name of a key in messages: ``body.mass``; of a very long one its beginning."""
-        name = name if len(name) <= _LONGEST else f"{name[: _LONGEST - 10]}…"
+        name = shortened(name)
         return f"{self.where}.{name}" if self.where else name
 
     def __contains__(self, name: str) -> bool:
@@ -321,8 +318,7 @@ def shown(value: object) -> str:
         return "a table"
     if isinstance(value, bool):
         return str(value).lower()
-    text = repr(value)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 10]}…"
+    return shortened(repr(value))
 
 
 def toml_text(text: str) -> str:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from railride.errors import InputError
+from railride.errors import InputError, shortened
 from railride.files import data_path
 
 if TYPE_CHECKING:
@@ -242,8 +242,7 @@ def _kind(dimension: tuple[tuple[str, int], ...]) -> str:
 
 
 def _shown(value: object) -> str:
-    shown = repr(value)
-    return shown if len(shown) <= _LONGEST else f"{shown[:40]}…"
+    return shortened(repr(value))
 
 
 def _without_angle(dimension: tuple[tuple[str, int], ...]) -> tuple[tuple[str, int], ...]:

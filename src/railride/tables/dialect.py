@@ -10,12 +10,13 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
-from railride.errors import Faults
+from railride.errors import Faults, shortened
 from railride.tables.separators import cells_or_none, find_separator
 from railride.tables.table import DECIMAL_COMMA, DECIMAL_POINT, is_missing
 
-_LONGEST_HEADING = 200
+_LONGEST_HEADING = 200  # that is looked into and told in messages
 _COMMENT = re.compile(r"\s*(?:#|%|//)+\s*")
 # Units of a line of its own that data/units.txt does not hold.
 _OTHER_UNITS = frozenset("g V mV A mA °C bar ‰ - – # counts".split())
@@ -148,8 +149,9 @@ class _Layout:
         self, headings: Sequence[str], units: tuple[str, ...], header_row: int, first_row: int
     ) -> Dialect:
         units = (*units, *[""] * len(headings))[: len(headings)] if units else ()
-        headings, units = (tuple(map(_cut, texts)) for texts in (headings, units))
-        return Dialect(self.separator, self.comma, headings, units, header_row, first_row)
+        cut = partial(shortened, longest=_LONGEST_HEADING)
+        return Dialect(self.separator, self.comma, tuple(map(cut, headings)),
+                       tuple(map(cut, units)), header_row, first_row)  # fmt: skip
 
     def _is_data(self, cells: list[str]) -> bool:
         """Whether a line is a row: half of the columns of numbers have one, or all cells are."""
@@ -227,11 +229,6 @@ class _Layout:
             and all(cell.isdecimal() for cell in seconds)
             and any(len(cell) > 1 and cell[0] == "0" for cell in seconds)
         )
-
-
-def _cut(heading: str) -> str:
-    """A heading, no longer than one may be that is looked into and told in messages."""
-    return heading if len(heading) <= _LONGEST_HEADING else heading[:_LONGEST_HEADING] + "…"
 
 
 def _is(number: re.Pattern[str], cell: str) -> bool:

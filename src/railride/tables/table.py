@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from railride.errors import Fault, InputError
+from railride.errors import Fault, InputError, shortened
 
 Numbers = NDArray[np.float64] | NDArray[np.int64]
 
@@ -147,7 +147,7 @@ class Column:
     def shown(self, i: int) -> str:
         """Cell ``i`` as a message shows it: in quotes, cut where it is long."""
         cell = self.cells[i]
-        return repr(cell if len(cell) <= 40 else cell[:40] + "…") if cell else "a blank cell"
+        return repr(shortened(cell, 40)) if cell else "a blank cell"
 
 
 @dataclass(frozen=True, eq=False)
