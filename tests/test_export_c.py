@@ -99,5 +99,5 @@ def test_two_vehicles_in_one_source(tmp_path):
 
 
 def test_no_name_of_a_vehicle_ends_the_text(tmp_path):
-    own = content_of(derive_vehicle(replace(COACH, name="*/ int"), segments=1))
+    own = content_of(derive_vehicle(replace(COACH, name="*/ int", source="/*/ \\"), 1))
     assert Compiled(own, tmp_path).name == "x__u2a__u2f__u20_int"

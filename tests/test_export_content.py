@@ -44,10 +44,11 @@ def test_outputs_that_are_asked_for():
     ({"length": 10.0}, "length: found 10.0, but no track"),
     ({"seed": 3}, "seed: found 3, but no track"),
     ({"track": "erri_low"}, "track: found one for 'npz'"),
+    ({"target": "excel", "track": "erri_low"}, "target: found 'excel'"),
 ])  # fmt: skip
 def test_what_does_not_go_together(given, said, tmp_path):
     with pytest.raises(InputError, match=said):
-        export_model(paper_coach(2), "npz", tmp_path / "x.npz", **given)
+        export_model(paper_coach(2), file=tmp_path / "x", **{"target": "npz"} | given)
     assert not list(tmp_path.iterdir())
 
 
@@ -68,7 +69,7 @@ def test_an_output_must_have_a_name_of_its_own():
     assert len(str(refused.value).splitlines()) == len(taken)
 
 
-WICKED = 'Works */ no. 7\n """ "quoted" \\ and ' + "so on " * 40
+WICKED = 'Works */ /*/ \x01 no. 7\n """ "quoted" \\ and ' + "so on " * 40
 
 
 @pytest.mark.parametrize("target", TARGETS)

@@ -12,6 +12,7 @@ members of the structure in their order. There is no state space: it takes a sol
 from __future__ import annotations
 
 import json
+import re
 import textwrap
 from collections.abc import Mapping
 from itertools import chain
@@ -67,9 +68,9 @@ def written(content: Content) -> str:
 
 
 def _origin(content: Content) -> str:
-    """Lines of the comment at the head, which nothing in them ends."""
-    said = [textwrap.wrap(text, 94) for text in source.origin(content)]
-    return "".join(f" * {line}\n" for lines in said for line in lines).replace("*/", "* /")
+    """Lines of the comment at the head, in which none begins or ends."""
+    texts = [re.sub(r"(?<=\*)(?=/)|(?<=/)(?=\*)", " ", text) for text in source.origin(content)]
+    return "".join(f" * {line}\n" for text in texts for line in textwrap.wrap(text, 94))
 
 
 def _axes(content: Content, name: str) -> list[str]:

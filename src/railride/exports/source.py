@@ -30,7 +30,7 @@ def origin(content: Content, remarks: Iterable[str] = ()) -> list[str]:
     values = content.model.vehicle.source
     said = [f"Source of the values: {values}"] if values else []
     said += [f"Remark: {remark}" for remark in (*content.remarks, *remarks)]
-    return [" ".join(text.split()) for text in said]
+    return [" ".join(re.sub(r"[\x00-\x1f\x7f]", " ", text).split()) for text in said]
 
 
 def parameters(

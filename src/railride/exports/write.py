@@ -23,8 +23,7 @@ def export_content(content: Content, target: str, **details: Any) -> str | bytes
     ------
     InputError : a target that does not exist; what the target cannot hold.
     """
-    if target not in TARGETS:
-        raise InputError(f"target: found {target!r}; expected one of {', '.join(TARGETS)}")
+    _check_target(target)
     return TARGETS[target].written(content, **details)
 
 
@@ -93,6 +92,7 @@ def exported(
     **ride: Any,
 ) -> tuple[str | bytes, tuple[str, ...]]:
     """What :func:`export_model` writes and returns; arguments as there."""
+    _check_target(target)
     content = content_of(model, outputs, at, floor)
     given = {name: value for name, value in ride.items() if value is not None}
     if track is None:
@@ -105,3 +105,8 @@ def exported(
                          "holds a ride)")  # fmt: skip
     setup = ride_setup(content, track, **given)
     return export_content(content, target, setup=setup), (*content.remarks, *setup.remarks)
+
+
+def _check_target(target: str) -> None:
+    if target not in TARGETS:
+        raise InputError(f"target: found {target!r}; expected one of {', '.join(TARGETS)}")
