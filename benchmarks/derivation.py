@@ -10,7 +10,7 @@ from entry import at_least, at_most, entry
 from measure import Case, answer, interleaved, median, run, timed, worker
 
 SEGMENTS = (1, 2, 4, 8)
-ROUNDS, PROCESS_ROUNDS = 2, 7
+ROUNDS, PROCESS_ROUNDS = 2, 15
 DERIVE = ("-m", "railride.derive", "--segments")
 
 
