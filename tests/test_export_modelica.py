@@ -26,7 +26,7 @@ from railride.exports.as_modelica import NAMES, unit, written
 from railride.exports.content import content_of
 from railride.exports.setup import ride_setup
 from railride.frequency import wheelset_delays
-from railride.rides import ridden_track
+from railride.ridden import ridden_track
 from railride.timerun import following, time_run
 from railride.trackfile import load_track
 

@@ -23,7 +23,8 @@ record_tables body_tables parameters
 lagrange resultants jets linear halfbody numeric
 plausibility bodies carried running_gear parameter_values vehicle preloads
 firstorder naming modal loci statespace spectra frequency bodes
-track trackfile response nonlinear weightings scales comfort records stochastic timerun rides active
+track trackfile response nonlinear weightings scales comfort records stochastic
+timerun ridden rides active
 comparison
 designs
 distributions

@@ -24,7 +24,8 @@ from railride.errors import InputError
 from railride.modal import modes
 from railride.numeric import Array
 from railride.parameters import Vehicle, load_vehicle
-from railride.rides import PAPER_SPEEDS, RATE, ridden_track
+from railride.ridden import ridden_track
+from railride.rides import PAPER_SPEEDS, RATE
 from railride.spectra import Spectrum
 from railride.stochastic import stochastic_ride, track_spectrum
 from railride.timerun import time_run

@@ -125,3 +125,12 @@ def several(values: ArrayLike, where: str, unit: str = "SI units") -> list[float
         return [float(value) for value in np.atleast_1d(np.asarray(values, dtype=float))]
     except (TypeError, ValueError):
         raise InputError(f"{where}: found {values!r}; expected numbers, in {unit}") from None
+
+
+def in_kmh(speed: float) -> str:
+    """A speed in m/s for people.
+
+    >>> in_kmh(145 / 3.6)
+    '145 km/h'
+    """
+    return f"{3.6 * speed:.6g} km/h"

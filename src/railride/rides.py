@@ -9,7 +9,7 @@ Appl. Sci. 2024, 14, 3848, Sections 3 and 4.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,18 +18,18 @@ import numpy as np
 from railride.comfort import ContinuousComfort, continuous_comfort_of, few_blocks, indices
 from railride.errors import Faults, InputError
 from railride.numeric import Array
-from railride.quantities import several
+from railride.quantities import in_kmh, several
+from railride.ridden import coverage, rated_section, ridden_track
 from railride.scales import levels, paper_level, scale_remarks
 from railride.spectra import Spectrum, check_speed, coverage_remark
 from railride.stochastic import (
-    BAND_HZ,
     MeasuredSpectrum,
     StochasticRide,
     stochastic_ride,
     track_spectrum,
 )
-from railride.timerun import LONGEST_RUN_IN, Run, time_run
-from railride.track import Track, recommended_step, resolved_band_hz, synthesise
+from railride.timerun import Run, time_run
+from railride.track import Track
 from railride.trackfile import load_track
 from railride.vehicle import VehicleModel
 from railride.weightings import Weighting, weighting
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
 PAPER_SPEEDS = (145 / 3.6, 200 / 3.6)  # m/s
 RATE = 1000.0  # Hz; at 1 ms the straight line between samples costs 0.1 % in r.m.s.
-TRACK_BEFORE = 1750.0  # m of synthetic track before the rated section: one track for all speeds
 FASTEST = 500 / 3.6  # m/s: above it a speed is hardly meant
 
 
@@ -194,21 +193,21 @@ def ride(
     road = None if spectral else ridden_track(source, speeds, length, seed)
     cases: list[Case] = []
     of, said = exact_spectrum(source, needed=spectral)
-    section = [] if spectral else _section(source, length)
+    section = [] if spectral else rated_section(source, length)
     remarks = [*model.vehicle.remarks, *model.remarks, *section, *said]
     for number, speed in enumerate(speeds, start=1):
         exact, said = _exact(model, speed, of, at, floor, weighted_by, needed=spectral)
         remarks += said
-        remarks += _coverage(source if road is not None or of is None else of, speed)
+        remarks += coverage(source if road is not None or of is None else of, speed)
         if speed > FASTEST:
-            remarks.append(f"{_kmh(speed)} is faster than trains run: is the speed in m/s?")
+            remarks.append(f"{in_kmh(speed)} is faster than trains run: is the speed in m/s?")
         if road is None:
             cases += _exact_cases(model, speed, exact, of)
         else:
             run = time_run(
                 model, speed, road, at, length=length, floor=floor, weight=weighted_by, rate=rate
             )
-            remarks += (f"{_kmh(speed)}: {said}" for said in run.remarks)
+            remarks += (f"{in_kmh(speed)}: {said}" for said in run.remarks)
             new, said = _rate(model, run, at, exact, weighted_by, rate)
             cases += new
             remarks += said
@@ -266,7 +265,7 @@ def _exact(
     covered = coverage_remark(of.name, of.active_band, speed)  # the run itself holds more
     remarks = [said for said in found.remarks if said != covered]
     held = f"{max(low, 0.05):.2g} to {min(high, 80.0):.3g} Hz"
-    return found, [*remarks, f"{_kmh(speed)}: the exact value of {of.name} holds {held}"]
+    return found, [*remarks, f"{in_kmh(speed)}: the exact value of {of.name} holds {held}"]
 
 
 def _rate(
@@ -278,7 +277,7 @@ def _rate(
     for k, x in enumerate(at):
         acceleration, rated = run.acceleration[k], run.rated
         found = indices(acceleration, rate, weight, section=rated, before=0.0)
-        remarks += [f"{_kmh(run.speed)}, {x:g} m: {said}" for said in found.remarks]
+        remarks += [f"{in_kmh(run.speed)}, {x:g} m: {said}" for said in found.remarks]
         (weighted,) = found.weighted
         over_time = continuous_comfort_of(found, acceleration, rate, "z", section=rated, before=0.0)
         cases.append(
@@ -335,43 +334,6 @@ def _exact_cases(
     ]
 
 
-def ridden_track(
-    source: Spectrum | Track, speeds: Sequence[float], length: float, seed: int
-) -> Track:
-    """The measured track, or a synthetic one with enough of it before the rated section.
-
-    It is one track for all speeds and bodies: its length does not depend on their run-ins.
-    """
-    if isinstance(source, Track):
-        return source
-    longest = LONGEST_RUN_IN * max(speeds) + 50.0
-    before = max(TRACK_BEFORE, 250.0 * np.ceil(longest / 250.0))
-    track = synthesise(source, length + before, recommended_step(min(speeds)), seed)
-    return replace(track, distance0=-before)
-
-
-def _coverage(source: Spectrum | Track, speed: float) -> list[str]:
-    """A remark where the track does not hold all frequencies of a ride."""
-    if isinstance(source, Spectrum):
-        remark = coverage_remark(source.name, source.active_band, speed)
-        return [remark] if remark else []
-    low, high = resolved_band_hz(source, speed)
-    if low > high:
-        limits = f"its length holds {low:.3g} Hz and above, its steps or its band {high:.3g} Hz"
-        return [f"{_kmh(speed)}: {source.name} can be trusted at no frequency: {limits} and below"]
-    text = f"{_kmh(speed)}: {source.name} can be trusted from {low:.2g} to {high:.3g} Hz"
-    narrow = f"{text} only: what the vehicle would feel outside is missing from the values"
-    return [narrow if high < BAND_HZ[1] else text]
-
-
-def _section(source: Spectrum | Track, length: float) -> list[str]:
-    """A remark that names the rated part of a measured track."""
-    if isinstance(source, Spectrum) or source.length <= length:
-        return []
-    rated = f"{source.end - length:g} to {source.end:g} m"
-    return [f"rated are the last {length:g} m of {source.name}, {rated} of {source.length:g} m"]
-
-
 def _check_arguments(
     model: VehicleModel, speeds: Sequence[float], at: Sequence[float], length: float, rate: float
 ) -> None:
@@ -387,12 +349,8 @@ def _check_arguments(
         try:
             check_speed(speed)
         except InputError:
-            faults.add("speed", _kmh(speed), "a finite speed above 0")
+            faults.add("speed", in_kmh(speed), "a finite speed above 0")
     for value, name, unit in ((length, "length", "m"), (rate, "rate", "Hz")):
         if not (np.isfinite(value) and value > 0):
             faults.add(name, f"{value:g} {unit}", "a finite one above 0")
     faults.raise_if_any()
-
-
-def _kmh(speed: float) -> str:
-    return f"{3.6 * speed:.6g} km/h"

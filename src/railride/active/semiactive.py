@@ -30,7 +30,8 @@ from railride.modal import eigen, refuse_unstable
 from railride.numeric import Array
 from railride.quantities import check_number, several
 from railride.response import first_order_hold, simulate
-from railride.rides import RATE, ridden_track
+from railride.ridden import ridden_track
+from railride.rides import RATE
 from railride.spectra import Spectrum, check_speed
 from railride.statespace import system_arrays
 from railride.timerun import run_in_time, with_run_in

@@ -11,7 +11,7 @@ from railride.errors import InputError
 from railride.exports.content import Content
 from railride.frequency import FLOOR, wheelset_delays
 from railride.numeric import Array
-from railride.rides import ridden_track
+from railride.ridden import ridden_track
 from railride.spectra import Spectrum
 from railride.spectra.density import check_speed
 from railride.timerun import following, run_in_time, with_run_in

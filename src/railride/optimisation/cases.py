@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from railride.designs.given import Cases
+from railride.quantities import in_kmh
 from railride.spectra import Spectrum
 
 
@@ -18,4 +19,4 @@ def cases_named(cases: Cases) -> list[tuple[str, float, float]]:
 
 def run_name(track: Spectrum, speed: float) -> str:
     """A run in a few words: "erri_low, 145 km/h"."""
-    return f"{track.name}, {3.6 * speed:.6g} km/h"
+    return f"{track.name}, {in_kmh(speed)}"

@@ -9,6 +9,7 @@ import numpy as np
 
 from railride.errors import InputError
 from railride.plots import canvas
+from railride.quantities import in_kmh
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,7 +170,7 @@ def _facts(r: BodeResponse) -> tuple[str, ...]:
         r.body,
         f"{signal.removeprefix('floor ')} of the {r.floor} floor" if on_floor else signal,
         _SOURCES[r.source[0]].format(r.source[2:]),
-        "" if r.speed is None else f"{3.6 * r.speed:.6g} km/h",
+        "" if r.speed is None else in_kmh(r.speed),
         f"x = {r.position:g} m" if on_floor else "",
     )
 
