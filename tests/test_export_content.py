@@ -61,6 +61,18 @@ def test_a_ride_needs_a_floor(outputs, tmp_path):
         export_model(model, "modelica", tmp_path / "x.mo", outputs=outputs, track="erri_low")
 
 
+@pytest.mark.parametrize(("given", "said"), [
+    ({"length": -5.0}, "track: length: found -5.0 m; expected a positive number"),
+    ({"length": "long"}, "track: length: found 'long'"),
+    ({"speed": -3.0}, "speed: found -3.0 m/s"),
+    ({"seed": -1}, "seed: found -1"),
+    ({"length": 60e3}, "track: found a table of [0-9,]+ rows; expected 1,000,000 at most"),
+])  # fmt: skip
+def test_a_ride_must_be_one(given, said, tmp_path):
+    with pytest.raises(InputError, match=said):
+        export_model(paper_coach(1), "modelica", tmp_path / "x.mo", **{"track": "erri_low"} | given)
+
+
 def test_an_output_must_have_a_name_of_its_own():
     taken = [Output(name, paper_coach(2).floor().expression, "m/s^2", "")
              for name in ("m_c", "dw_1", "f_2", "z_0", "dz_0", "ddz_0")]  # fmt: skip

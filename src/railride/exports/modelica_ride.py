@@ -15,7 +15,7 @@ import math
 
 import sympy as sp
 
-from railride.exports import as_modelica as modelica
+from railride.exports import modelica
 from railride.exports.content import Content
 from railride.exports.modelica_track import track
 from railride.exports.setup import Setup

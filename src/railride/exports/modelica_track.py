@@ -13,7 +13,7 @@ Springer 1993, II.6 (Hermite interpolation).
 
 from __future__ import annotations
 
-from railride.exports.as_modelica import number, titled
+from railride.exports.modelica import number, titled
 from railride.exports.setup import Setup
 from railride.numeric import Array
 

@@ -7,17 +7,20 @@ from pathlib import Path
 
 import numpy as np
 
-from railride.errors import InputError
+from railride.errors import Faults, InputError
 from railride.exports.content import Content
 from railride.frequency import FLOOR, wheelset_delays
 from railride.numeric import Array
-from railride.ridden import ridden_track
+from railride.quantities import check_number
+from railride.ridden import coverage, rated_section, ridden_track
 from railride.spectra import Spectrum
 from railride.spectra.density import check_speed
 from railride.timerun import following, run_in_time, with_run_in
 from railride.track import Track
 from railride.trackfile import load_track
 from railride.weightings import Weighting, weighting
+
+MOST_ROWS = 1_000_000  # of a track's table: 100 MB of text
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,16 +74,21 @@ def ride_setup(
 
     Raises
     ------
-    InputError : a track that does not exist or is shorter than ``length``; a speed that is none; an
-        unstable vehicle; no acceleration of the floor among the outputs, which the ride weights.
+    InputError : a track that does not exist, is shorter than ``length``, or has more rows than
+        ``MOST_ROWS``; a speed or length that is none; an unstable vehicle; no acceleration of the
+        floor among the outputs, which the ride weights.
     """
     if not any(output.name.startswith(FLOOR) for output in content.outputs):
         listed = ", ".join(output.name for output in content.outputs)
         raise InputError(f"track: found a ride with the outputs {listed}; expected {FLOOR!r} among "
                          "them, which it weights")  # fmt: skip
     check_speed(speed)
+    faults = Faults("track")
+    check_number(faults, "length", length, "> 0", "m")
+    faults.raise_if_any()
     model, weight = content.model, weighting(weight)
-    line = ridden_track(load_track(track), [speed], length, seed)
+    source = load_track(track)
+    line = ridden_track(source, [speed], length, seed)
     settling, remark = run_in_time(model, content.system, speed, weight)
     line, run_in = with_run_in(model, speed, line, length, speed * settling)
     start = line.end - length - run_in
@@ -88,8 +96,13 @@ def ride_setup(
     w, slope = line.elevation(start - behind)
     q, dq = following(content.dynamics, w, speed * slope)
     first = max(0, int(np.floor((start - behind.max() - line.distance0) / line.step)))
+    pieces = line.pieces()[first:]
+    if len(pieces) > MOST_ROWS:
+        raise InputError(f"track: found a table of {len(pieces):,} rows; expected {MOST_ROWS:,} at "
+                         "most, which another tool can hold (a shorter length)")  # fmt: skip
+    said = [*rated_section(source, length), *line.remarks, *coverage(source, speed), remark]
     return Setup(
         speed, line.name, start, line.distance0 + first * line.step, line.step,
-        line.pieces()[first:], run_in, length, behind, q, dq, weight,
-        remarks=(*line.remarks, *([remark] if remark else ())),
+        pieces, run_in, length, behind, q, dq, weight,
+        remarks=tuple(filter(None, said)),
     )  # fmt: skip
