@@ -36,7 +36,7 @@ from railride.running_gear import (
 )
 
 _DERIVED_ONCE = (
-    "lagrangian", "linear", "_numeric", "_rows", "_values", "_places_of_wheelsets",
+    "lagrangian", "linear", "_numeric", "_rows", "_floors", "_values", "_places_of_wheelsets",
 )  # fmt: skip
 
 
@@ -246,7 +246,17 @@ class VehicleModel:
         if derivative not in kinds:
             raise InputError(f"derivative: found {derivative}; expected 0, 1 or 2")
         self.body.check_point(at)
-        kind, unit = kinds[derivative]
+        self.body.check_reading(reading)
+        key = float(at), reading, derivative
+        if key not in self._floors:
+            self._floors[key] = self._floor(*key, *kinds[derivative])
+        return self._floors[key]
+
+    @cached_property
+    def _floors(self) -> dict[tuple[float, str, int], Output]:
+        return {}
+
+    def _floor(self, at: float, reading: str, derivative: int, kind: str, unit: str) -> Output:
         name = f"floor_{kind}" + _where(at) + ("_polygon" if reading == "polygon" else "")
         height = Coordinate("z_floor")
         symbol = (height, height.dot, height.ddot)[derivative]
