@@ -15,7 +15,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, inf, isfinite, log2, pi, sqrt
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,9 +22,6 @@ from numpy.typing import ArrayLike
 from railride.errors import InputError
 from railride.spectra import FloatArray, Spectrum, check_band, check_speed
 from railride.spectra import spectrum as named_spectrum
-
-if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
 
 HIGHEST_HZ = 80.0  # the end of the whole-body vibration band of ISO 2631-1
 SAMPLES_PER_WAVELENGTH = 8  # of a track made for a ride
@@ -97,13 +93,13 @@ class Track:
         return self.distance0 + self.step * np.arange(self.level.size, dtype=np.float64)
 
     @cached_property
-    def _spline(self) -> tuple[BSpline, BSpline]:
-        """Level w and dw/du over u = (x − x_0)/h, whose samples lie at whole numbers."""
+    def _knots(self) -> FloatArray:
+        """Level w, dw/du and d²w/du² of the spline at the samples, (3, n), with u = (x − x_0)/h."""
         from scipy.interpolate import make_interp_spline
 
-        degree = 5 if self.level.size > 5 else 3
-        spline = make_interp_spline(np.arange(self.level.size, dtype=float), self.level, k=degree)
-        return spline, spline.derivative()
+        u = np.arange(self.level.size, dtype=float)
+        spline = make_interp_spline(u, self.level, k=5 if u.size > 5 else 3)
+        return np.stack([self.level, *(spline.derivative(order)(u) for order in (1, 2))])
 
     def elevation(self, distance: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Level w (m) and its exact slope dw/dx (m/m) at any ``distance`` x (m, any shape).
@@ -128,8 +124,8 @@ class Track:
                 f"the track, {self.distance0:g} to {self.end:g} m"
             )
         u = np.clip((x - self.distance0) / self.step, 0.0, self.level.size - 1.0)
-        spline, rate = self._spline
-        w, slope = spline(u), rate(u) / self.step
+        w, slope = _quintic(u, self._knots)
+        slope /= self.step
         if self.lead_in:
             ahead = x <= self.distance0
             w, slope = np.where(ahead, self.level[0], w), np.where(ahead, 0.0, slope)
@@ -143,10 +139,7 @@ class Track:
         >>> Track(0.0, 0.5, np.arange(8.0) ** 2).pieces()[2].round(9).tolist()
         [4.0, 8.0, 8.0]
         """
-        _, rate = self._spline
-        u = np.arange(self.level.size, dtype=float)
-        columns = [self.level, rate(u) / self.step, rate.derivative()(u) / self.step**2]
-        found = np.stack(columns, axis=-1)
+        found = self._knots.T / self.step ** np.arange(3)
         if self.lead_in:
             found[0, 1:] = 0.0
         return found
@@ -289,6 +282,27 @@ class Track:
             self.level, fs=2.0 * pi / self.step, nperseg=count, detrend="linear"
         )
         return wavenumber, density
+
+
+def _quintic(u: FloatArray, knots: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """w and dw/du at u by the quintic that has level, slope and curvature of both knots beside it.
+
+    knots (3, n) : these, at u = 0, 1, …
+
+    Source: E. Hairer, S.P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+    Springer 1993, II.6 (Hermite interpolation).
+    """
+    i = np.minimum(u.astype(np.int64), knots.shape[1] - 2)
+    r = u - i
+    w_0, d_0, c_0 = (values[i] for values in knots)
+    w_1, d_1, c_1 = (values[i + 1] for values in knots)
+    rise = w_1 - w_0
+    a_2 = c_0 / 2
+    a_3 = 10 * rise - 6 * d_0 - 4 * d_1 - (3 * c_0 - c_1) / 2
+    a_4 = -15 * rise + 8 * d_0 + 7 * d_1 + (3 * c_0 - 2 * c_1) / 2
+    a_5 = 6 * rise - 3 * (d_0 + d_1) - (c_0 - c_1) / 2
+    w = w_0 + r * (d_0 + r * (a_2 + r * (a_3 + r * (a_4 + r * a_5))))
+    return w, d_0 + r * (2 * a_2 + r * (3 * a_3 + r * (4 * a_4 + r * 5 * a_5)))
 
 
 def _steps(length: float, step: float) -> int:
