@@ -15,9 +15,10 @@ help: ## List what there is to make
 ride: $(VENV)/test.stamp ## Derive the paper's coach, run it over 1 km at 145 and 200 km/h, rate it
 	$(BIN)/python -m railride ride --plots ride-plots
 
-# One process for each processor, and so one thread of linear algebra in each.
+# One process for each processor, and so one thread of linear algebra in each; sympy remembers more
+# than its thousand results, for the hundreds of vehicles that are derived.
 test: $(VENV)/test.stamp ## Run the tests and the examples in the documentation
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest --numprocesses auto --dist worksteal
+	OPENBLAS_NUM_THREADS=1 SYMPY_CACHE_SIZE=20000 $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 
 lint: $(VENV)/dev.stamp ## Check style, format and types
 	$(BIN)/ruff check
