@@ -16,7 +16,6 @@ import argparse
 import ctypes
 import importlib
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -27,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from coach import RATE, SPEED, coach, elevations_and_rates, vehicle_state_space
-from measure import ONE_THREAD, ROOT, machine
+from measure import ROOT, environment, machine, run
 from rich.console import Console
 from rich.table import Table
 
@@ -105,13 +104,13 @@ def counted() -> dict[str, int]:
     valgrind = shutil.which("valgrind")
     if valgrind is None:
         sys.exit("guard: found no valgrind; expected it installed: it counts the instructions")
-    environment = {**os.environ, **ONE_THREAD, "PYTHONHASHSEED": "0",
-                   "OPENBLAS_CORETYPE": "Haswell", "PYTHONPATH": str(ROOT / "src")}  # fmt: skip
+    run("-c", "import railride.cli")  # its byte code is there, as where it is installed
+    own = environment() | {"PYTHONHASHSEED": "0", "OPENBLAS_CORETYPE": "Haswell"}
     with tempfile.TemporaryDirectory() as folder:
         command = [valgrind, "--tool=callgrind", f"--dump-before={MARK}",
                    f"--callgrind-out-file={folder}/out", sys.executable, __file__,
                    "--work"]  # fmt: skip
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, env=own, capture_output=True, text=True, check=False)
         if done.returncode:
             sys.exit(f"guard: the works ended with {done.returncode}: {done.stderr[-800:]}")
         parts = sorted(Path(folder).glob("out.*"), key=lambda path: int(path.suffix[1:]))

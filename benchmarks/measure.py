@@ -48,6 +48,14 @@ class Usage:
     output: str
 
 
+def environment() -> dict[str, str]:
+    """Of the processes that are measured: one thread, and byte code, as what is installed has."""
+    paths = [str(ROOT / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
+    found = {**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(paths)}
+    found.pop("PYTHONDONTWRITEBYTECODE", None)
+    return found
+
+
 def run(*arguments: str) -> Usage:
     """Run ``python ARGUMENTS`` to its end, on one BLAS thread, and say what it took.
 
@@ -55,13 +63,10 @@ def run(*arguments: str) -> Usage:
 
     Raises MeasurementError, with the end of what the process complained, if it fails.
     """
-    paths = [str(ROOT / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
-    environment = {**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(paths)}
-    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # what is installed has its byte code
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as complaints:
         start = time.perf_counter()
         process = subprocess.Popen(
-            [sys.executable, *arguments], env=environment, stdout=output, stderr=complaints
+            [sys.executable, *arguments], env=environment(), stdout=output, stderr=complaints
         )
         too_late = threading.Timer(LIMIT, process.kill)
         too_late.start()
